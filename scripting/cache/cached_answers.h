@@ -92,7 +92,7 @@ T cached_by_answers(const Reuse& reuse, std::string_view stage, std::string_view
   AskedFunction asked(function, std::move(known));
   T value = make([&asked](const Point& p) { return asked(p); });
   if (!asked.is_as_known()) {
-    context.warn(std::string(stage) + ": asked its function for other places than before: not kept");
+    context.warn(std::string(stage) + ": evaluated its function at other points than before: not cached");
     key.reset();
     return value;
   }

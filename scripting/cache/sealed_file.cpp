@@ -115,7 +115,7 @@ class FileSource final : public ByteSource {
   }
   std::uint64_t n_left() const override { return n_left_; }
   [[noreturn]] void refuse() const override {
-    throw Error({.code = ErrorCode::file_malformed, .attempted = "reading a sealed file", .problem = "it does not hold what it should"});
+    throw Error({.code = ErrorCode::file_malformed, .attempted = "reading a file of the cache", .problem = "the content differs from the expected structure"});
   }
 
  private:
@@ -146,11 +146,11 @@ std::string SealedFile::problem(const ContentKey& key, const RunContext& context
   const auto n_bytes = static_cast<std::uint64_t>(status.st_size);
   Head head;
   if (n_bytes < sizeof(Head) + sizeof(Seal) || !read(descriptor_, &head, sizeof head, 0)) return "it has " + std::to_string(n_bytes) + " bytes only";
-  if (head.magic != k_magic || head.byte_order != k_byte_order) return "it is no file of sealed values";
-  if (head.schema != k_sealed_schema) return "it is of layout " + std::to_string(head.schema) + ", not " + std::to_string(k_sealed_schema);
-  if (head.key != key.bytes) return "it is of another key";
+  if (head.magic != k_magic || head.byte_order != k_byte_order) return "it is not a cache file of sterna";
+  if (head.schema != k_sealed_schema) return "it has the layout version " + std::to_string(head.schema) + ", not " + std::to_string(k_sealed_schema);
+  if (head.key != key.bytes) return "it has another key";
   if (head.n_bytes != n_bytes - sizeof(Head) - sizeof(Seal))
-    return "it has " + std::to_string(n_bytes) + " bytes in place of " + std::to_string(head.n_bytes + sizeof(Head) + sizeof(Seal));
+    return "it has " + std::to_string(n_bytes) + " bytes instead of " + std::to_string(head.n_bytes + sizeof(Head) + sizeof(Seal));
   ContentHash hash;
   std::string piece(k_piece, '\0');
   for (std::uint64_t at = 0; at < head.n_bytes; at += k_piece) {
@@ -161,8 +161,7 @@ std::string SealedFile::problem(const ContentKey& key, const RunContext& context
   }
   hash.append(bytes_of(&head, sizeof head));
   Seal seal{};
-  if (!read(descriptor_, seal.data(), seal.size(), sizeof(Head) + head.n_bytes) || hash.digest() != seal)
-    return "its content does not have the hash that it was stored with";
+  if (!read(descriptor_, seal.data(), seal.size(), sizeof(Head) + head.n_bytes) || hash.digest() != seal) return "its content does not match the stored hash";
   seal_.bytes = seal;
   n_bytes_ = head.n_bytes;
   return {};

@@ -25,7 +25,7 @@ constexpr const char* k_extension = ".stage";
 using Seal = std::array<std::uint8_t, 16>;
 
 void remove_damaged(const std::filesystem::path& path, std::string_view stage, const std::string& problem, const RunContext& context) {
-  context.warn("cache: the entry " + path.string() + " of " + std::string(stage) + " is damaged (" + problem + "): it is removed and made anew");
+  context.warn("cache: the entry " + path.string() + " of " + std::string(stage) + " is damaged (" + problem + "): the entry is removed and computed again");
   std::error_code error;
   std::filesystem::remove(path, error);
   if (error) context.warn("cache: " + path.string() + " could not be removed: " + error.message());
@@ -61,7 +61,7 @@ std::vector<Listed> listed(const std::filesystem::path& folder) {
 void require_folder(const std::filesystem::path& folder) {
   std::error_code error;
   if (!std::filesystem::is_directory(folder, error))
-    throw Error({.code = ErrorCode::file_not_found, .attempted = "looking into the cache " + folder.string(), .problem = "there is no such folder"});
+    throw Error({.code = ErrorCode::file_not_found, .attempted = "opening the cache " + folder.string(), .problem = "there is no such folder"});
 }
 
 }  // namespace
@@ -72,8 +72,8 @@ StageCache::StageCache(CacheSettings settings) : settings_(std::move(settings)) 
   std::filesystem::create_directories(settings_.folder, error);
   if (!std::filesystem::is_directory(settings_.folder))
     throw Error({.code = ErrorCode::write_failed,
-                 .attempted = "making the cache " + settings_.folder.string(),
-                 .problem = error ? error.message() : "there is a file of that name",
+                 .attempted = "creating the cache " + settings_.folder.string(),
+                 .problem = error ? error.message() : "there is a file with this name",
                  .hint = "name a folder"});
 }
 
@@ -123,7 +123,7 @@ void StageCache::store(std::string_view stage, const ContentKey& key, const std:
     write_sealed(path, key, write_entry, context);
   } catch (const Error& error) {
     if (error.code() != ErrorCode::write_failed) throw;
-    context.warn("cache: the result of " + std::string(stage) + " is not kept: " + error.what());
+    context.warn("cache: the result of " + std::string(stage) + " is not stored: " + error.what());
     return;
   }
   trim(path, context);
@@ -149,7 +149,7 @@ void StageCache::trim(const std::filesystem::path& newest, const RunContext& con
     bytes -= static_cast<double>(old.bytes);
     ++n_removed;
   }
-  context.info("cache: above its limit, so " + std::to_string(n_removed) + " entries went that were not used for longest");
+  context.info("cache: size limit exceeded, " + std::to_string(n_removed) + " least recently used entries were removed");
 }
 
 std::vector<CacheEntry> StageCache::entries(const std::filesystem::path& folder) {

@@ -73,7 +73,7 @@ T cached(const Reuse& reuse, std::string_view stage, std::string_view what, cons
          const std::function<bool(const T&)>& may_keep = {}) {
   if (reuse.cache == nullptr) return make();
   if (!key) {
-    context.debug(std::string(stage) + ": cannot be cached, as it is not known what all of its input was made of");
+    context.debug(std::string(stage) + ": cannot be cached, because the origin of some input is unknown");
     return make();
   }
   std::optional<T> found;

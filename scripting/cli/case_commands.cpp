@@ -89,19 +89,20 @@ void add_case_command(CLI::App& app, const std::string& name, const std::string&
                       CaseCommand& command, const std::function<void(std::function<int(const CommandContext&)>)>& choose) {
   CLI::App* parsed = app.add_subcommand(name, summary)->alias(verb);
   const bool is_foam = command.solver == CaseSolver::openfoam;
-  parsed->add_option("input", command.input, "volume mesh file; .sterna keeps the layers' lines. `sterna formats` lists what is read")->required();
+  parsed->add_option("input", command.input, "volume mesh file; .sterna files keep the growth lines of layers. `sterna formats` lists the formats")->required();
   parsed->add_option("-o,--output", command.output, is_foam ? "folder of the case" : "case.cfg")->required();
   CaseSettings settings;
   add_schema_options(*parsed, settings.options(command.solver), command.options);
   parsed
       ->add_option_function<std::string>(
           "--flow", [&command](const std::string& text) { add_flow_words(text, command.options); },
-          "flow conditions in one text, --flow \"mach=0.78 altitude=11000 length=4.2\"")
+          "flow conditions in one string, --flow \"mach=0.78 altitude=11000 length=4.2\"")
       ->type_name("CONDITIONS");
-  parsed->add_option("--reference", command.reference, "model file (sumo, CPACS) whose wing gives reference area, length and moment origin")->type_name("FILE");
-  parsed->add_option("--moment-origin", command.moment_origin, "point that moments are about, e.g. 15,0,0")->type_name("X,Y,Z");
+  parsed->add_option("--reference", command.reference, "model file (sumo, CPACS) with the wing for reference area, length and moment origin")
+      ->type_name("FILE");
+  parsed->add_option("--moment-origin", command.moment_origin, "origin of moments, e.g. 15,0,0")->type_name("X,Y,Z");
   add_patch_option(*parsed, command.boundaries,
-                   "what happens at an inflow, outflow or actuator disc, e.g. --boundary prop:thrust=800, --boundary "
+                   "conditions at an inflow, outflow or actuator disc, e.g. --boundary prop:thrust=800, --boundary "
                    "nozzle:total_pressure=1.5e5,total_temperature=600; may be given several times",
                    "--boundary");
   parsed
@@ -114,7 +115,7 @@ void add_case_command(CLI::App& app, const std::string& name, const std::string&
               command.kinds.emplace_back(text.substr(0, equals), text.substr(equals + 1));
             }
           },
-          "what patches with such names are to the solver, whatever they were when the mesh was made, e.g. --kind \"top*=slip\"; may be given several times")
+          "kind of patches with matching names for the solver, instead of the kind in the mesh, e.g. --kind \"top*=slip\"; may be given several times")
       ->type_name("NAMES=KIND")
       ->allow_extra_args(false)
       ->take_all();
@@ -128,11 +129,10 @@ void add_case_commands(CLI::App& app, CaseCommands& commands, const std::functio
   commands.foam.solver = CaseSolver::openfoam;
   commands.su2.solver = CaseSolver::su2;
   add_case_command(
-      app, "foam-case", "foam_case",
-      "write a case of OpenFOAM for a mesh, which runs as it is written: fields by the kinds of patches, schemes, forces, Allrun",
+      app, "foam-case", "foam_case", "write a complete OpenFOAM case for a mesh: fields by the kinds of patches, schemes, forces, Allrun",
       "sterna foam-case wing.sterna -o case --mach 0.2 --altitude 0 --length 4.2 --alpha 2deg --reference-area 30; then: case/Allrun. docs/flow.md",
       commands.foam, choose);
-  add_case_command(app, "su2-config", "su2_config", "write a configuration of SU2 for a mesh: markers, flow, reference values and settings to start from",
+  add_case_command(app, "su2-config", "su2_config", "write an SU2 configuration for a mesh: markers, flow, reference values and initial settings",
                    "sterna su2-config wing.su2 -o wing.cfg --mach 0.78 --altitude 11000 --length 4.2 --alpha 2deg --reference-area 120. docs/flow.md",
                    commands.su2, choose);
 }

@@ -67,14 +67,15 @@ struct Request {
 };
 
 void add_common_options(CLI::App& app, CommonSettings& common) {
-  app.add_option("--threads", common.threads, "worker threads; 0 = all of the machine. The result does not depend on it")->check(CLI::Range(0, k_max_threads));
+  app.add_option("--threads", common.threads, "number of worker threads; 0 = all threads of the machine. The result does not depend on this number")
+      ->check(CLI::Range(0, k_max_threads));
   app.add_option("--seed", common.seed, "seed of random numbers (math.random of scripts)");
   app.add_flag("-q,--quiet", common.console.is_quiet, "no log and no progress, only results, warnings and errors");
-  app.add_flag("-v,--verbose", common.console.is_verbose, "more log");
+  app.add_flag("-v,--verbose", common.console.is_verbose, "write a more detailed log");
   app.add_option("--log", common.console.log_file, "write every log line with its time to this file")->type_name("FILE");
   app.add_flag("--show-options", common.only_options,
                "print the options that mesh, surface, half, union, convert, draw or report would use, as JSON, and stop");
-  app.add_option("--dump-dir", common.dump_directory, "where VTU pictures of failures go; default: beside the output")
+  app.add_option("--dump-dir", common.dump_directory, "folder for VTU pictures of failures; default: beside the output")
       ->type_name("FOLDER")
       ->check(CLI::ExistingDirectory);
 }
@@ -83,31 +84,34 @@ std::filesystem::path beside(const std::filesystem::path& file) { return file.st
 
 void add_cache_options(CLI::App& command, CacheChoice& cache) {
   command
-      .add_option("--cache", cache.folder,
-                  "keep results of stages in this folder, and take them from there where all that they depend on is the same: equal bytes in less time")
+      .add_option("--cache", cache.folder, "store results of stages in this folder and reuse them if all their inputs are unchanged; the output is the same")
       ->type_name("FOLDER");
-  command.add_option("--cache-limit", cache.limit, "bytes in that folder, above which the results go that were not used for longest; 20e9 unless given")
+  command
+      .add_option("--cache-limit", cache.limit,
+                  "largest size of that folder in bytes; when exceeded, the least recently used results are removed; default: 20e9")
       ->needs("--cache")
       ->check(CLI::PositiveNumber)
       ->type_name("BYTES");
 }
 
 void add_cache_command(CLI::App& app, CacheCommand& cache, Request& request) {
-  CLI::App* command = app.add_subcommand("cache", "say what a cache holds, or empty it");
-  command->add_option("--folder", cache.folder, "the folder that --cache named")->required()->type_name("FOLDER");
-  command->add_flag("--list", cache.is_listed, "every entry by itself");
+  CLI::App* command = app.add_subcommand("cache", "list the content of a cache, or empty it");
+  command->add_option("--folder", cache.folder, "folder of the cache, as given to --cache")->required()->type_name("FOLDER");
+  command->add_flag("--list", cache.is_listed, "list every entry");
   command->add_flag("--clear", cache.is_cleared, "remove all entries");
   command->final_callback([&] { request.execute = [&](const CommandContext& context) { return execute(cache, context); }; });
 }
 
 void add_run_command(CLI::App& app, RunCommand& run, Request& request) {
   CLI::App* command = app.add_subcommand("run", "run a Lua case");
-  command->add_option("script", run.script, "case.lua; input files are looked for in the current folder, then beside it; outputs go to the current folder")
+  command
+      ->add_option("script", run.script, "case.lua; input files are searched in the current folder, then beside the script; outputs go to the current folder")
       ->required();
   add_script_arguments(*command, run.arguments);
   add_set_option(*command, run.overrides);
-  command->add_option("--tasks", run.tasks, "cases of a series at a time, whatever the script says")->check(CLI::Range(1, k_max_tasks));
-  command->add_flag("--retry", run.retries, "of a series: run all cases again that failed in an earlier run, whatever the script says");
+  command->add_option("--tasks", run.tasks, "number of cases of a series that run at the same time, instead of the value in the script")
+      ->check(CLI::Range(1, k_max_tasks));
+  command->add_flag("--retry", run.retries, "series: repeat all cases that failed in an earlier run, whatever the script sets");
   command->add_option("--series-case", run.series_case, "")->group("");  // not listed in the help: set by series{} for its workers
   command->add_option("--look-in", run.input_folder, "")->group("");     // not listed in the help: set by `sterna determinism` for its runs
   add_cache_options(*command, run.cache);
@@ -119,12 +123,14 @@ void add_run_command(CLI::App& app, RunCommand& run, Request& request) {
 
 void add_script_commands(CLI::App& app, CheckScriptCommand& check, Request& request) {
   CLI::App* command = app.add_subcommand(
-      "check-script", "find mistakes in a Lua case without meshing or writing: unknown verbs and keys, wrong types, units and ranges, missing files");
+      "check-script", "find mistakes in a Lua case without meshing or writing files: unknown verbs and keys, wrong types, units and ranges, missing files");
   command->add_option("script", check.script.script, "case.lua")->required();
   add_script_arguments(*command, check.script.arguments);
   add_set_option(*command, check.script.overrides);
   command->final_callback([&] { request.execute = [&](const CommandContext& context) { return execute(check, context); }; });
-  app.add_subcommand("prompt", "Lua with the verbs, a statement at a time; what `sterna` alone does on a terminal. Statements may come through a pipe")
+  app.add_subcommand(
+         "prompt",
+         "run Lua statements interactively, with all verbs; the default of `sterna` without a command on a terminal. Statements can also come from a pipe")
       ->final_callback([&] { request.is_prompt = true; });
   app.add_subcommand("manual", "print the reference of verbs, objects, options and commands (docs/lua.md)")->final_callback([&] {
     request.execute = [&](const CommandContext& context) {
@@ -139,7 +145,7 @@ void add_mesh_command(CLI::App& app, MeshCommand& mesh, OptionOverrides& set, Re
   command
       ->add_option("surfaces", mesh.inputs,
                    "surface files; several are joined to one wall. Or model files (STEP, IGES, BREP, sumo, CPACS), whose faces are meshed first. `sterna "
-                   "formats` lists what is read")
+                   "formats` lists the formats")
       ->required();
   command->add_option("-o,--output", mesh.outputs, "mesh file: " + io::list_formats_with(io::FormatUse::write_volume) + "; may be given several times")
       ->required()
@@ -147,8 +153,9 @@ void add_mesh_command(CLI::App& app, MeshCommand& mesh, OptionOverrides& set, Re
       ->take_all();
   command->add_option("--stats", mesh.stats, "write sizes, times and memory of this run as JSON")->type_name("FILE");
   command
-      ->add_option("--stages", mesh.stages,
-                   "keep surface, envelope, tetrahedra and mesh in this .sterna file; `sterna mesh case.sterna -o ...` continues behind the last step in it")
+      ->add_option(
+          "--stages", mesh.stages,
+          "write surface, envelope, tetrahedra and mesh to this .sterna file; `sterna mesh case.sterna -o ...` continues after the last step in the file")
       ->type_name("FILE");
   command
       ->add_option(
@@ -158,17 +165,16 @@ void add_mesh_command(CLI::App& app, MeshCommand& mesh, OptionOverrides& set, Re
       ->allow_extra_args(false)
       ->take_all();
   command
-      ->add_option(
-          "--wake-sheet", mesh.sheets,
-          "experimental: layers go on behind trailing edges, e.g. --wake-sheet \"wing=main* length=2\" (chords), or --wake-sheet auto; growth, direction; may "
-          "be given several times")
+      ->add_option("--wake-sheet", mesh.sheets,
+                   "experimental: continue layers behind trailing edges, e.g. --wake-sheet \"wing=main* length=2\" (chords), or --wake-sheet auto; growth, "
+                   "direction; may be given several times")
       ->type_name("SHEET")
       ->allow_extra_args(false)
       ->take_all();
   command
-      ->add_option(
-          "--periodic", mesh.periodic,
-          "two flat sides that are each other's image, moved, e.g. --periodic left,right: the mesh matches there node by node; may be given several times")
+      ->add_option("--periodic", mesh.periodic,
+                   "two flat sides, each the translated image of the other, e.g. --periodic left,right: the meshes of both sides match node by node; may be "
+                   "given several times")
       ->type_name("FIRST,SECOND")
       ->allow_extra_args(false)
       ->take_all();
@@ -193,53 +199,48 @@ void add_mesh_command(CLI::App& app, MeshCommand& mesh, OptionOverrides& set, Re
           [&mesh](const std::string& text) {
             for (auto& [name, value] : farfield_of_text(text)) mesh.options.emplace_back(std::move(name), std::move(value));
           },
-          "what is put around the bodies: \"sphere radius=100 edge=20\", \"box -10 -5 -5 20 5 5 edge=2 x_min=inflow x_max=outflow,edge:0.5\", \"cylinder -10 0 "
-          "0 20 0 0 radius=5 edge=1\", \"none\", or the file of a closed surface")
+          "farfield around the bodies: \"sphere radius=100 edge=20\", \"box -10 -5 -5 20 5 5 edge=2 x_min=inflow x_max=outflow,edge:0.5\", \"cylinder -10 0 0 "
+          "20 0 0 radius=5 edge=1\", \"none\", or the file of a closed surface")
       ->type_name("SHAPE");
   command->add_flag(
       "--half", mesh.is_half,
-      "mesh the half of the surface beside a plane, by default y = 0 on the side of y > 0; others with --set half.axis=z --set half.at=0.5 --set half.keep=-");
-  command->add_flag(
-      "--auto", mesh.is_auto,
-      "take the files as they are where they can be meshed, else repair them, else wrap them; remesh triangulations full of needles; faces of models that "
-      "cross are united or meshed as "
-      "triangles first. What was done comes first in summary and manifest");
+      "mesh half of the surface, cut at a plane, by default the half y > 0; other planes with --set half.axis=z --set half.at=0.5 --set half.keep=-");
+  command->add_flag("--auto", mesh.is_auto,
+                    "take the files unchanged if they can be meshed, otherwise repair them, otherwise wrap them; remesh triangulations with many sliver "
+                    "triangles; unite crossing parts of models, or mesh their faces with triangles first. Summary and manifest begin with the changes");
   command->add_flag("--repair", mesh.is_repaired,
-                    "repair the files first: `sterna repair --help`; its options with --set repair.gap=1e-3 --set repair.hole=0.5");
-  command->add_flag("--wrap", mesh.is_wrapped, "wrap the files first: `sterna wrap --help`; its options with --set wrap.edge=5mm --set wrap.gap=20mm");
-  command->add_flag(
-      "--remesh", mesh.is_remeshed,
-      "give the surface new triangles first, as `sterna remesh` does; its options with --set remesh.max_edge=0.1 --set remesh.curvature_angle=10*deg");
+                    "repair the files first, see `sterna repair --help`; options of repair with --set repair.gap=1e-3 --set repair.hole=0.5");
+  command->add_flag("--wrap", mesh.is_wrapped, "wrap the files first, see `sterna wrap --help`; options of wrap with --set wrap.edge=5mm --set wrap.gap=20mm");
+  command->add_flag("--remesh", mesh.is_remeshed,
+                    "remesh the surface first, as `sterna remesh`; options of remesh with --set remesh.max_edge=0.1 --set remesh.curvature_angle=10*deg");
   surfmesh::StitchOptions surface;
   volmesh::MeshCase volume;
   OptionTable of_triangulations = sterna::options_of(surface), of_both = volmesh::options_of(volume);
   ReadCadOptions reading;
   OptionTable of_models = sterna::options_of(reading);
-  const std::string unit_help = "metres for 1 unit of the file's numbers (of models: " + std::ranges::find(of_models, "unit", &Option::name)->range_text() +
-                                ", in place of the unit that their header states)";
+  const std::string unit_help = "length of 1 unit of the file in metres (for models: " + std::ranges::find(of_models, "unit", &Option::name)->range_text() +
+                                ", instead of the unit in the file's header)";
   for (const char* const name : {"fluid", "unit"}) {  // options that are common with reading a model
     const auto shared = std::ranges::find(of_triangulations, name, &Option::name);
     of_both.insert(of_both.begin(), *shared);
     if (shared->name == "unit") of_both.front().help = unit_help;
     of_triangulations.erase(shared);
   }
-  add_schema_options(*command, of_triangulations, mesh.options, "of triangulations only");
+  add_schema_options(*command, of_triangulations, mesh.options, "for triangulations only");
   add_schema_options(*command, of_both, mesh.options);
   WriteOptions writing;
   add_schema_options(*command, sterna::options_of(writing), mesh.writing);
   add_set_option(*command, set);
   add_cache_options(*command, mesh.cache);
   add_patch_option(*command, mesh.patches,
-                   "what patches with such names ask for instead, e.g. --patch \"tunnel*:layers=20,first_height=2e-5\": kind (slip, symmetry, inflow, outflow, "
-                   "farfield, interface, wall), layers, first_height, max_growth, total_height, max_thickness, blend, open_ridges, truncate; of models also "
-                   "what `sterna surface "
-                   "--patch` takes: max_edge ...; may be given several times");
+                   "options of patches with matching names, e.g. --patch \"tunnel*:layers=20,first_height=2e-5\": kind (slip, symmetry, inflow, outflow, "
+                   "farfield, interface, wall), layers, first_height, max_growth, total_height, max_thickness, blend, open_ridges, truncate; for models also "
+                   "the options of `sterna surface --patch`: max_edge ...; may be given several times");
   command->footer(
-      "--time-limit holds for the engines of tetrahedra and, of models, for reading them as well (read_cad.time_limit). "
-      "Numbers take units: 0.5mm, 35deg, --unit inch; without one they are metres, degrees, kelvin. Heights may be found from the flow: --first-height "
-      "\"y_plus 1 mach=0.78 altitude=11000 "
-      "length=4.2\", --total-height \"boundary_layer factor=1.3 reynolds=6e6 length=1\"; `sterna run` a script with help(y_plus). Of models, options of their "
-      "surface: --set surface_mesh.max_edge=0.2; `sterna surface --help` lists them.");
+      "--time-limit applies to the tetrahedra engines and to reading of models (read_cad.time_limit). Numbers can have units: 0.5mm, 35deg, --unit inch; "
+      "without units they are metres, degrees, kelvin. Heights can be computed from the flow: --first-height \"y_plus 1 mach=0.78 altitude=11000 length=4.2\", "
+      "--total-height \"boundary_layer factor=1.3 reynolds=6e6 length=1\"; for details run help(y_plus) in `sterna prompt`. For models, options of the surface "
+      "mesh are set with --set surface_mesh.max_edge=0.2; `sterna surface --help` lists them.");
   command->final_callback([&, command] {
     for (const auto& [name, value] : set)
       (name.starts_with("half.")     ? mesh.half
@@ -254,23 +255,24 @@ void add_mesh_command(CLI::App& app, MeshCommand& mesh, OptionOverrides& set, Re
 }
 
 void add_surface_command(CLI::App& app, SurfaceCommand& surface, OptionOverrides& set, Request& request) {
-  CLI::App* command = app.add_subcommand("surface", "mesh the faces of a model (STEP, IGES, BREP, sumo, CPACS): triangles, closed where the model is");
-  command->add_option("models", surface.inputs, "model files; several stand side by side. Components of sumo and CPACS files are united first")->required();
+  CLI::App* command =
+      app.add_subcommand("surface", "mesh the faces of a model (STEP, IGES, BREP, sumo, CPACS) with triangles, closed where the model is closed");
+  command->add_option("models", surface.inputs, "model files; several models stay separate. Components of sumo and CPACS files are united first")->required();
   command->add_option("-o,--output", surface.outputs, "surface file: " + io::list_formats_with(io::FormatUse::write_surface) + "; may be given several times")
       ->required()
       ->allow_extra_args(false)
       ->take_all();
   command->add_flag("--auto", surface.is_auto,
-                    "unite, repair or wrap where faces cross or the surface is open; triangulations, too, are repaired or wrapped where they have to be");
+                    "unite, repair or wrap if faces cross or the surface is open; triangulations are also repaired or wrapped if required");
   surfmesh::SurfaceMeshOptions options;
   ReadCadOptions reading;
   add_schema_options(*command, model_surface_options(options, reading), surface.options);
   add_set_option(*command, set);
   add_cache_options(*command, surface.cache);
   add_patch_option(*command, surface.patches,
-                   "what faces with such names ask for instead, e.g. --patch \"wing*:max_edge=0.1,curvature_angle=8\": max_edge, min_edge, curvature_angle, "
-                   "chord_error, leading_edge_factor, trailing_edge_factor; and what `sterna mesh --patch` takes, which is kept for it: kind, layers, "
-                   "first_height ...; may be given several times");
+                   "options of faces with matching names, e.g. --patch \"wing*:max_edge=0.1,curvature_angle=8\": max_edge, min_edge, curvature_angle, "
+                   "chord_error, leading_edge_factor, trailing_edge_factor; also the options of `sterna mesh --patch` (kind, layers, first_height ...), which "
+                   "are stored for the volume mesh; may be given several times");
   command
       ->add_option("--source", surface.sources,
                    "shorter edges in a region, e.g. --source \"line 0 0 0 8 0 0 size=0.02 radius=0.5\"; point, line, box, sphere, cylinder, wake; may be given "
@@ -278,7 +280,7 @@ void add_surface_command(CLI::App& app, SurfaceCommand& surface, OptionOverrides
       ->type_name("SOURCE")
       ->allow_extra_args(false)
       ->take_all();
-  command->footer("Numbers take units: 5mm, 12deg; without one they are metres and degrees.");
+  command->footer("Numbers can have units: 5mm, 12deg; without units they are metres and degrees.");
   command->final_callback([&] {
     surface.options.insert(surface.options.end(), set.begin(), set.end());
     request.execute = [&](const CommandContext& context) { return execute(surface, context); };
@@ -287,8 +289,8 @@ void add_surface_command(CLI::App& app, SurfaceCommand& surface, OptionOverrides
 }
 
 void add_half_command(CLI::App& app, HalfCommand& half, Request& request) {
-  CLI::App* command = app.add_subcommand("half", "cut a surface at a plane and write the half beside it, its rim closed and in the plane");
-  command->add_option("surface", half.input, "surface file. `sterna formats` lists what is read")->required();
+  CLI::App* command = app.add_subcommand("half", "cut a surface at a plane and write one half; its open boundary is one closed line in the plane");
+  command->add_option("surface", half.input, "surface file. `sterna formats` lists the formats")->required();
   command->add_option("-o,--output", half.output, "surface file: " + io::list_formats_with(io::FormatUse::write_surface))->required();
   HalfOptions options;
   add_schema_options(*command, sterna::options_of(options), half.options);
@@ -301,8 +303,8 @@ void add_half_command(CLI::App& app, HalfCommand& half, Request& request) {
 }
 
 void add_remesh_command(CLI::App& app, RemeshCommand& remesh, OptionOverrides& set, Request& request) {
-  CLI::App* command = app.add_subcommand("remesh", "give a surface new triangles by curvature and sizes: needles go, sharp edges and patches stay");
-  command->add_option("surface", remesh.input, "surface file. `sterna formats` lists what is read")->required();
+  CLI::App* command = app.add_subcommand("remesh", "remesh a surface by curvature and sizes: removes sliver triangles, keeps sharp edges and patches");
+  command->add_option("surface", remesh.input, "surface file. `sterna formats` lists the formats")->required();
   command->add_option("-o,--output", remesh.outputs, "surface file: " + io::list_formats_with(io::FormatUse::write_surface) + "; may be given several times")
       ->required()
       ->allow_extra_args(false)
@@ -312,7 +314,7 @@ void add_remesh_command(CLI::App& app, RemeshCommand& remesh, OptionOverrides& s
   add_set_option(*command, set);
   add_cache_options(*command, remesh.cache);
   add_patch_option(*command, remesh.patches,
-                   "what patches with such names ask for instead, e.g. --patch \"wing*:max_edge=0.1,curvature_angle=8\": max_edge, min_edge, curvature_angle, "
+                   "options of patches with matching names, e.g. --patch \"wing*:max_edge=0.1,curvature_angle=8\": max_edge, min_edge, curvature_angle, "
                    "chord_error, leading_edge_chordwise, trailing_edge_chordwise ...; may be given several times");
   command
       ->add_option("--source", remesh.sources,
@@ -323,7 +325,7 @@ void add_remesh_command(CLI::App& app, RemeshCommand& remesh, OptionOverrides& s
       ->take_all();
   command->add_option_function<std::string>(
       "--unit", [&remesh](const std::string& text) { remesh.options.emplace_back("unit", text); }, "length of one unit of the file: mm, inch, 0.5mm ...");
-  command->footer("Numbers take units: 5mm, 12deg; without one they are metres and degrees.");
+  command->footer("Numbers can have units: 5mm, 12deg; without units they are metres and degrees.");
   command->final_callback([&] {
     remesh.options.insert(remesh.options.end(), set.begin(), set.end());
     request.execute = [&](const CommandContext& context) { return execute(remesh, context); };
@@ -333,11 +335,11 @@ void add_remesh_command(CLI::App& app, RemeshCommand& remesh, OptionOverrides& s
 
 void add_union_command(CLI::App& app, UnionCommand& unite, Request& request) {
   CLI::App* command =
-      app.add_subcommand("union", "unite closed surfaces that stick in each other, or the crossing parts of one file, to one wall; or models to one model");
-  command->add_option("parts", unite.inputs, "surface files, or model files (STEP, IGES, BREP, sumo, CPACS). `sterna formats` lists what is read")->required();
+      app.add_subcommand("union", "unite closed surfaces that intersect, or the crossing parts of one file, to one wall; or unite models to one model");
+  command->add_option("parts", unite.inputs, "surface files, or model files (STEP, IGES, BREP, sumo, CPACS). `sterna formats` lists the formats")->required();
   command
       ->add_option("-o,--output", unite.output,
-                   "surface file: " + io::list_formats_with(io::FormatUse::write_surface) + "; of models: STEP, IGES, BREP (.step, .iges, .brep)")
+                   "surface file: " + io::list_formats_with(io::FormatUse::write_surface) + "; for models: STEP, IGES, BREP (.step, .iges, .brep)")
       ->required();
   UnionOptions options;
   UniteOptions models;
@@ -353,17 +355,17 @@ void add_union_command(CLI::App& app, UnionCommand& unite, Request& request) {
 
 void add_repair_command(CLI::App& app, RepairCommand& repair, OptionOverrides& set, Request& request) {
   CLI::App* command = app.add_subcommand(
-      "repair", "close seams and holes of surfaces, cut facets that cross, drop sheets and inner walls; as little as possible, each change told");
-  command->add_option("parts", repair.inputs, "surface files. `sterna formats` lists what is read")->required();
+      "repair", "close seams and holes of surfaces, cut crossing facets, remove sheets and inner walls; changes as little as possible and reports each change");
+  command->add_option("parts", repair.inputs, "surface files. `sterna formats` lists the formats")->required();
   command->add_option("-o,--output", repair.output, "surface file: " + io::list_formats_with(io::FormatUse::write_surface))->required();
-  command->add_option("--changes", repair.changes, "VTU with the facets that were changed or taken out")->type_name("FILE");
-  command->add_option("--report", repair.report, "JSON with every change: kind, place, size, facets; and the distances")->type_name("FILE");
+  command->add_option("--changes", repair.changes, "write a VTU file with the changed and removed facets")->type_name("FILE");
+  command->add_option("--report", repair.report, "write a JSON file with every change (kind, location, size, facets) and the distances")->type_name("FILE");
   surfmesh::StitchOptions stitching;
   surfmesh::RepairOptions options;
   add_schema_options(*command, repair_options(stitching, options), repair.options);
   add_set_option(*command, set);
   add_cache_options(*command, repair.cache);
-  command->footer("docs/dirty_surfaces.md says what is done, in which order and how far it goes.");
+  command->footer("docs/dirty_surfaces.md describes the steps, their order and limits.");
   command->final_callback([&] {
     repair.options.insert(repair.options.end(), set.begin(), set.end());
     request.execute = [&](const CommandContext& context) { return execute(repair, context); };
@@ -372,18 +374,18 @@ void add_repair_command(CLI::App& app, RepairCommand& repair, OptionOverrides& s
 }
 
 void add_wrap_command(CLI::App& app, WrapCommand& wrap, OptionOverrides& set, Request& request) {
-  CLI::App* command = app.add_subcommand("wrap", "wrap surfaces, however torn, in one that is closed and near to them, with their sharp edges and patches");
-  command->add_option("parts", wrap.inputs, "surface files. `sterna formats` lists what is read")->required();
+  CLI::App* command = app.add_subcommand("wrap", "wrap damaged surfaces in one closed surface close to them, with their sharp edges and patches");
+  command->add_option("parts", wrap.inputs, "surface files. `sterna formats` lists the formats")->required();
   command->add_option("-o,--output", wrap.output, "surface file: " + io::list_formats_with(io::FormatUse::write_surface))->required();
-  command->add_option("--changes", wrap.changes, "VTU with the triangles that close something, and those that leak")->type_name("FILE");
-  command->add_option("--report", wrap.report, "JSON with every closure and leak: kind, place, size; and the distances")->type_name("FILE");
+  command->add_option("--changes", wrap.changes, "write a VTU file with the triangles that close openings, and those at leaks")->type_name("FILE");
+  command->add_option("--report", wrap.report, "write a JSON file with every closure and leak (kind, location, size) and the distances")->type_name("FILE");
   surfmesh::WrapOptions options;
   add_schema_options(*command, sterna::options_of(options), wrap.options);
   add_set_option(*command, set);
   add_cache_options(*command, wrap.cache);
   command->footer(
-      "Numbers take units: --edge 5mm, --gap 20mm, --features 35deg, --unit inch; without one they are metres and degrees. docs/wrap.md says what is done and "
-      "how far it goes.");
+      "Numbers can have units: --edge 5mm, --gap 20mm, --features 35deg, --unit inch; without units they are metres and degrees. docs/wrap.md describes the "
+      "steps and limits.");
   command->final_callback([&] {
     wrap.options.insert(wrap.options.end(), set.begin(), set.end());
     request.execute = [&](const CommandContext& context) { return execute(wrap, context); };
@@ -393,32 +395,33 @@ void add_wrap_command(CLI::App& app, WrapCommand& wrap, OptionOverrides& set, Re
 
 void add_check_command(CLI::App& app, CheckCommand& check, Request& request) {
   CLI::App* command = app.add_subcommand("check",
-                                         "prove that a volume mesh tiles its domain and measure its quality; exit status 0 only if it is VALID. Of a model "
-                                         "(STEP ...): whether it is closed, and where not");
+                                         "prove that a volume mesh tiles its domain and measure its quality; exit status 0 only if it is VALID. For a model "
+                                         "(STEP ...): report whether it is closed, and list open edges");
   command->add_option("mesh", check.input, "mesh file, or model file")->required();
   command->add_flag("--json", check.is_json, "print the report as JSON");
   command
       ->add_option(
           "--model", check.models,
-          "compare the walls of the mesh with the model that it was made of (gates G17, G18): STEP, IGES, BREP, sumo, CPACS; may be given several times")
+          "compare the walls of the mesh with the model from which it was made (gates G17, G18): STEP, IGES, BREP, sumo, CPACS; may be given several times")
       ->type_name("FILE")
       ->allow_extra_args(false)
       ->take_all();
-  command->add_option("--findings-per-kind", check.options.findings_per_kind, "places listed for each kind of violation")->check(CLI::PositiveNumber);
-  command->add_flag("--strict", check.options.strict, "exit status 3 also when a QUALITY gate FAILs for the solvers of --for");
+  command->add_option("--findings-per-kind", check.options.findings_per_kind, "number of locations listed for each kind of violation")
+      ->check(CLI::PositiveNumber);
+  command->add_flag("--strict", check.options.strict, "exit status 3 also if a QUALITY gate FAILs for the solvers of --for");
   command
       ->add_option("--for", check.options.solvers,
-                   "solvers that the verdict is for, e.g. --for su2,openfoam: " + known_solvers() + "; without it those that read the format of the file")
+                   "solvers of the verdict, e.g. --for su2,openfoam: " + known_solvers() + "; default: the solvers that read the format of the file")
       ->type_name("SOLVER,...");
   command->add_flag("--cell-centred,!--no-cell-centred", check.options.cell_centred,
-                    "measure what cell-centred solvers feel: OpenFOAM's non-orthogonality, skewness ... (default)");
+                    "also compute the measures of cell-centred solvers: OpenFOAM's non-orthogonality, skewness ... (default)");
   command
       ->add_option("--cells", check.cells,
-                   "write the mesh with the quality of each cell (scaled Jacobian, volume, dihedral angles as VTK has them) to this .vtu")
+                   "write the mesh with the quality of each cell (scaled Jacobian, volume, dihedral angles as VTK defines them) to this .vtu file")
       ->type_name("FILE");
   command
       ->add_option("--gate", check.gates,
-                   "limits of a QUALITY gate instead of the usual ones, e.g. --gate orthogonality:hard=3deg,target=15deg --gate face_weight:none; help "
+                   "limits of a QUALITY gate, instead of the defaults, e.g. --gate orthogonality:hard=3deg,target=15deg --gate face_weight:none; help "
                    "\"mesh:check\" lists them; may be given several times")
       ->type_name("MEASURE:LIMITS")
       ->allow_extra_args(false)
@@ -433,10 +436,10 @@ void add_check_command(CLI::App& app, CheckCommand& check, Request& request) {
 
 void add_info_command(CLI::App& app, InfoCommand& info, Request& request) {
   CLI::App* command =
-      app.add_subcommand("info", "say what a surface, mesh or model file holds: counts, patches, box, units; of models areas, volumes, mean chords");
+      app.add_subcommand("info", "describe a surface, mesh or model file: counts, patches, bounding box, units; for models also areas, volumes, mean chords");
   command->add_option("file", info.input, "surface, mesh or model file")->required();
   command->add_option("--unit", info.unit, "length of one unit of the file: mm, inch, 0.5mm ...");
-  command->add_flag("--json", info.is_json, "as JSON (schema sterna-info-1)");
+  command->add_flag("--json", info.is_json, "print JSON (schema sterna-info-1)");
   command->final_callback([&] {
     request.execute = [&](const CommandContext& context) { return execute(info, context); };
     request.tells_itself = true;
@@ -450,7 +453,7 @@ void add_convert_command(CLI::App& app, ConvertCommand& convert, Request& reques
   command->add_option("output", convert.output, "file to write; `sterna formats` lists the formats")->required();
   command->add_option("--format", convert.settings.format, "format of the output by its name in `sterna formats`, e.g. \"STL text\"; default: by the extension")
       ->type_name("NAME");
-  command->add_flag("--surface", convert.settings.as_surface, "of a volume mesh write the boundary");
+  command->add_flag("--surface", convert.settings.as_surface, "write the boundary of a volume mesh");
   ReadCadOptions reading;
   WriteCadOptions writing;
   for (const OptionTable& table : {sterna::options_of(reading), sterna::options_of(writing)}) add_schema_options(*command, table, convert.options);
@@ -480,9 +483,9 @@ void add_report_command(CLI::App& app, ReportCommand& report, Request& request) 
 void add_pentagrow_command(CLI::App& app, PentagrowCommand& pentagrow, Request& request) {
   CLI::App* command = app.add_subcommand(
       "pentagrow",
-      "mesh the space around a surface as a configuration of pentagrow says, with its names of files; also as the program pentagrow beside sterna");
+      "mesh the space around a surface by a configuration of pentagrow, with pentagrow's file names; also available as the program pentagrow beside sterna");
   command->add_option("surface", pentagrow.surface, "surface file")->required();
-  command->add_option("config", pentagrow.config, "configuration: Key = value in each line; without it, pentagrow's defaults");
+  command->add_option("config", pentagrow.config, "configuration file with lines Key = value; default: the defaults of pentagrow");
   command->final_callback([&] {
     request.execute = [&](const CommandContext& context) { return execute(pentagrow, context); };
     request.trouble = beside("hybrid");

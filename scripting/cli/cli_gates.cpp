@@ -21,14 +21,14 @@ std::pair<std::string, std::string> split_override(const std::string& text) {
 
 void add_determinism_command(CLI::App& app, DeterminismCommand& determinism, const Choose& choose) {
   CLI::App* command = app.add_subcommand("determinism",
-                                         "gate G22: run a Lua case once for each number of threads, in folders of their own, and compare all files that it "
-                                         "writes byte by byte; exit status 0 only if they are equal");
+                                         "gate G22: run a Lua case once for each number of threads, in separate folders, and compare all written files byte by "
+                                         "byte; exit status 0 only if they are equal");
   command
       ->add_option("script", determinism.script,
-                   "case.lua; input files are looked for in the current folder, then beside it; files that it writes under absolute names are not compared")
+                   "case.lua; input files are searched in the current folder, then beside the script; files written under absolute names are not compared")
       ->required();
   add_script_arguments(*command, determinism.arguments);
-  command->add_option("--threads", determinism.threads, "numbers of threads, one run each; a number given twice compares two equal runs; 1,2,7 unless given")
+  command->add_option("--threads", determinism.threads, "numbers of threads, one run each; a number given twice compares two equal runs; default: 1,2,7")
       ->delimiter(',')
       ->allow_extra_args(false)
       ->check(CLI::Range(1, k_max_gate_threads))
@@ -45,16 +45,17 @@ void add_determinism_command(CLI::App& app, DeterminismCommand& determinism, con
       ->take_all();
   command->add_flag("--json", determinism.is_json, "print the report as JSON");
   command->footer(
-      "Pages (.html), logs and measures of cases hold times and are left out, which is said. The runs are removed where all is equal, and kept below TMPDIR "
-      "where not.");
+      "Pages (.html), logs and measures of cases contain times; they are not compared, and the report lists them. The files of the runs are removed if all are "
+      "equal, otherwise kept below TMPDIR.");
   command->final_callback([&determinism, choose] { choose([&determinism](const CommandContext& context) { return execute(determinism, context); }); });
 }
 
 void add_check_family_command(CLI::App& app, CheckFamilyCommand& family, const Choose& choose) {
   CLI::App* command = app.add_subcommand("check-family",
-                                         "check that meshes are members of one family: one factor between a mesh and the next in nodes, walls, first heights, "
-                                         "layers and growth; exit status 3 where a rule FAILs");
-  command->add_option("meshes", family.inputs, "mesh files from coarse to fine; .sterna files say most, manifests <file>.json beside them are read")
+                                         "check that meshes are members of one family: the same factor between successive meshes in nodes, walls, first "
+                                         "heights, layers and growth; exit status 3 if a rule FAILs");
+  command
+      ->add_option("meshes", family.inputs, "mesh files from coarse to fine; .sterna files contain most data, manifests <file>.json beside the files are read")
       ->required();
   FamilyTolerances tolerances;
   for (const Option& option : sterna::options_of(tolerances)) {

@@ -36,7 +36,7 @@ void add_script_arguments(CLI::App& command, OptionOverrides& arguments) {
           [&arguments](const std::vector<std::string>& texts) {
             for (const std::string& text : texts) arguments.push_back(split_argument(text));
           },
-          "what the script reads with args{ alpha = 0 }, e.g. alpha=4 height=2mm half=true")
+          "arguments that the script reads with args{ alpha = 0 }, e.g. alpha=4 height=2mm half=true")
       ->type_name("NAME=VALUE ...");
 }
 
@@ -56,7 +56,7 @@ int execute(const CheckScriptCommand& command, const CommandContext& context) {
                check, context.run);
   const std::string name = command.script.script.string();
   if (check.problems.empty()) {
-    context.console.print(name + ": nothing wrong was found; nothing was meshed or written");
+    context.console.print(name + ": no problems found; nothing was meshed or written");
     return k_exit_success;
   }
   for (const ErrorHandle& problem : check.problems) context.console.error(problem->what());

@@ -89,9 +89,10 @@ int print_volume_info(const InputPath& input, double unit, const CommandContext&
   print_patches(context, value.mesh.patches, sizes, value.unknown_kinds);
   // Brief check: without the slow exact test for intersections.
   const CheckReport report = check(value.mesh, {.intersections = false}, context.run.part("check", 0.3, 1.0));
-  context.console.print("  check    " +
-                        std::string(report.is_valid() ? "no faults found, boundaries not tested for intersection" : "INVALID, `sterna check` says where") +
-                        "; " + quality_text(report));
+  context.console.print(
+      "  check    " +
+      std::string(report.is_valid() ? "no faults found; boundaries were not tested for intersection" : "INVALID; `sterna check` lists the locations") + "; " +
+      quality_text(report));
   return k_exit_success;
 }
 
@@ -182,13 +183,13 @@ MeshValue continue_mesh(const StageContent& steps, const MeshCommand& command, c
   if (!command.stages.empty())
     throw Error({.code = ErrorCode::bad_argument,
                  .attempted = "mesh",
-                 .problem = "--stages keeps the steps of a whole run; this one continues from " + command.inputs.front()});
-  const std::string done = "belongs to a step that is done already in " + command.inputs.front();
+                 .problem = "--stages requires a run from the start; this run continues from " + command.inputs.front()});
+  const std::string done = "belongs to a step that is complete already in " + command.inputs.front();
   const auto refuse_done = [&](std::string_view option) {
-    throw Error({.code = ErrorCode::bad_argument, .attempted = "option " + std::string(option), .problem = done, .hint = "mesh the surface anew"});
+    throw Error({.code = ErrorCode::bad_argument, .attempted = "option " + std::string(option), .problem = done, .hint = "start again from the surface"});
   };
   refuse_without_effect(command.given, {"--half", "--auto", "--repair", "--wrap", "--remesh"}, "mesh",
-                        "the surface is done already in " + command.inputs.front(), "mesh the surface anew");
+                        "the surface is complete already in " + command.inputs.front(), "start again from the surface");
   for (const OptionOverrides* options : {&command.half, &command.remesh})
     if (!options->empty()) refuse_done(options->front().first);
   if (!command.discs.empty()) refuse_done("--disc");
@@ -212,7 +213,7 @@ MeshValue continue_mesh(const StageContent& steps, const MeshCommand& command, c
   }
   add_sources(command, steps.envelope->wall->mesh, options);
   const RunContext part = context.run.part("volume_mesh", k_read_end, k_mesh_end);
-  context.run.info("continuing behind the " + std::string(steps.tetrahedra ? "tetrahedra" : "envelope") + " of " + command.inputs.front());
+  context.run.info("continuing after the " + std::string(steps.tetrahedra ? "tetrahedra" : "envelope") + " of " + command.inputs.front());
   return steps.tetrahedra ? finish_mesh(*steps.tetrahedra, options, part, reuse)
                           : finish_mesh(make_tetrahedra(*steps.envelope, options, part, reuse), options, part, reuse);
 }
@@ -274,10 +275,10 @@ std::vector<OptionsElsewhere> elsewhere_of(const MeshCommand& command, bool is_m
   std::vector<OptionsElsewhere> result;
   if (is_model) {
     OptionTable table = sterna::options_of(unused.stitching);
-    result.push_back({std::move(table), "is for triangulations (STL ...), and " + name + " is a model"});
+    result.push_back({std::move(table), "applies to triangulations (STL ...), and " + name + " is a model"});
   } else {
     result.push_back(
-        {model_surface_options(unused.recipe.options, unused.reading), "is for the faces of models (STEP ...), and " + name + " is a triangulation"});
+        {model_surface_options(unused.recipe.options, unused.reading), "applies to the faces of models (STEP ...), and " + name + " is a triangulation"});
   }
   result.push_back({sterna::options_of(unused.repair), "is given without --repair"});
   result.push_back({sterna::options_of(unused.wrap), "is given without --wrap"});
@@ -346,7 +347,7 @@ MeshValue fill(const MeshCommand& command, SurfaceValue wall, const volmesh::Mes
                                                  ErrorCode::mesh_invalid, ErrorCode::self_intersection};
     if (std::ranges::find(k_triangles_at_fault, error.code()) == k_triangles_at_fault.end()) throw;
     context.run.info("auto: " + error.info().attempted + ": " + error.info().problem +
-                     (is_new ? "; the triangles before remesh are tried" : "; remesh is tried"));
+                     (is_new ? "; the triangles before remesh are used" : "; remesh follows"));
     return make_volume_mesh(is_new ? wall : remeshed(wall, recipe, {}, part, reuse), options, command.stages, part, reuse);
   }
 }
@@ -357,7 +358,7 @@ MeshValue make_mesh_of_models(const MeshCommand& command, const std::vector<Inpu
     throw Error({.code = ErrorCode::bad_argument,
                  .attempted = command.is_repaired ? "option --repair" : "option --wrap",
                  .problem = inputs.front().name + " is a model, not a triangulation",
-                 .hint = "--auto meshes its faces, and repairs or wraps their triangles where they cross or are open"});
+                 .hint = "--auto meshes the faces of the model, and repairs or wraps the triangles if they cross or are open"});
   AutoSurface asked;
   SurfaceRecipe& recipe = asked.recipe;
   ReadCadOptions& reading = asked.reading;
@@ -406,8 +407,8 @@ MeshValue make_mesh(const MeshCommand& command, const Reuse& reuse, const Comman
   AutoSurface unused;
   set_options(table, command.options, context, elsewhere_of(command, false, unused));
   if (!command.sources.empty() && !command.is_remeshed)
-    context.run.info(std::string("--source refines the volume; the triangles of the wall stay ") +
-                     (command.is_auto ? "unless --auto remeshes them, which sources refine as well" : "as they are: --remesh refines the wall, too"));
+    context.run.info(std::string("--source refines the volume; the triangles of the wall stay unchanged") +
+                     (command.is_auto ? ", unless --auto remeshes the wall, where sources apply as well" : ": --remesh refines the wall, too"));
   complete_options(volume_options, command, context.run);
   volume_options.discs = discs_of(command);
   volume_options.wakes = sheets_of(command);
@@ -436,7 +437,7 @@ CaseAddress case_of_text(const std::string& text) {
   CaseAddress address{.series = text.substr(0, slash)};
   const char* end = text.data() + text.size();
   if (slash == std::string::npos || std::from_chars(text.data() + slash + 1, end, address.index).ptr != end || address.index == 0)
-    throw Error({.code = ErrorCode::bad_argument, .attempted = "--series-case " + text, .problem = "it is not NAME/INDEX"});
+    throw Error({.code = ErrorCode::bad_argument, .attempted = "--series-case " + text, .problem = "expected NAME/INDEX"});
   return address;
 }
 
@@ -523,8 +524,8 @@ int execute(const HalfCommand& command, const CommandContext& context) {
   if (is_model_file(command.input))
     throw Error({.code = ErrorCode::bad_argument,
                  .attempted = "half " + command.input,
-                 .problem = "it is a model, not a triangulation",
-                 .hint = "`sterna mesh " + command.input + " --half ...` meshes a half of it; in a script half(read_cad \"...\"); or `sterna surface` first"});
+                 .problem = "the file is a model, not a triangulation",
+                 .hint = "`sterna mesh " + command.input + " --half ...` meshes half of it; in a script half(read_cad \"...\"); or `sterna surface` first"});
   require_surface_output(command.output);
   HalfOptions options;
   surfmesh::StitchOptions reading;
@@ -553,7 +554,7 @@ void require_other_output(const std::vector<std::string>& inputs, const std::fil
     if (std::filesystem::equivalent(name, output, none))
       throw Error({.code = ErrorCode::bad_argument,
                    .attempted = attempted,
-                   .problem = "the output " + output.string() + " is one of the inputs, which it would replace",
+                   .problem = "the output " + output.string() + " is one of the inputs, which the output would replace",
                    .hint = "give it another name"});
   }
 }
@@ -635,7 +636,7 @@ int execute(const UnionCommand& command, const CommandContext& context) {
     if (std::filesystem::equivalent(name, command.output, none))
       throw Error({.code = ErrorCode::bad_argument,
                    .attempted = "union",
-                   .problem = "the output " + command.output.string() + " is one of the inputs, which it would replace",
+                   .problem = "the output " + command.output.string() + " is one of the inputs, which the output would replace",
                    .hint = "give it another name"});
   }
   if (std::any_of(command.inputs.begin(), command.inputs.end(), [](const std::string& name) { return is_model_file(name); }))
@@ -669,7 +670,7 @@ void require_cells_output(const std::filesystem::path& path, const std::filesyst
   if (std::filesystem::equivalent(path, input, none))
     throw Error({.code = ErrorCode::bad_argument,
                  .attempted = attempted,
-                 .problem = "it is the mesh that is checked",
+                 .problem = "this file is the mesh to be checked",
                  .hint = "such as --cells " + path.stem().string() + "_cells.vtu"});
 }
 
@@ -677,8 +678,8 @@ void require_cells_output(const std::filesystem::path& path, const std::filesyst
   throw Error({.code = ErrorCode::unsupported_format,
                .attempted = "checking " + input,
                .problem = what,
-               .hint = "check proves volume meshes. `sterna info " + input + "` says what the surface holds and whether it is closed, `sterna mesh " + input +
-                       " ...` meshes the space around it"});
+               .hint = "check applies to volume meshes. `sterna info " + input + "` describes the surface and reports whether it is closed, `sterna mesh " +
+                       input + " ...` meshes the space around it"});
 }
 
 }  // namespace
@@ -691,8 +692,8 @@ int execute(const CheckCommand& command, const CommandContext& context) {
     if (!is_model_file(model))
       throw Error({.code = ErrorCode::bad_argument,
                    .attempted = "--model " + model,
-                   .problem = "it is no model",
-                   .hint = "give the file of STEP, IGES, BREP, sumo or CPACS that the mesh was made of"});
+                   .problem = "the file is not a model",
+                   .hint = "give the STEP, IGES, BREP, sumo or CPACS file from which the mesh was made"});
   GateTable limits;
   for (const std::string& text : command.gates) set_gate_limits(text, limits);
   if (!command.cells.empty()) require_cells_output(command.cells, command.input);
@@ -700,8 +701,8 @@ int execute(const CheckCommand& command, const CommandContext& context) {
   const CheckOptions options = command.options.to_options(limits, consumers_of_files(files), "--for");
   const MeshValue mesh = read_mesh({command.input, command.input}, context.run.part("read", 0.0, 0.3));
   if (count_cells(mesh.mesh).total() == 0 && !mesh.mesh.boundary_triangles.empty())
-    refuse_to_check_surface(command.input,
-                            "it holds a surface of " + count_text(static_cast<std::int64_t>(mesh.mesh.boundary_triangles.size())) + " triangles and no cells");
+    refuse_to_check_surface(
+        command.input, "the file has a surface of " + count_text(static_cast<std::int64_t>(mesh.mesh.boundary_triangles.size())) + " triangles, but no cells");
   const double checked = command.models.empty() ? 1.0 : 0.5;
   CheckReport report = check(mesh.mesh, options, context.run.part("check", 0.3, checked));
   if (!command.models.empty() && report.quality_measured) {
@@ -746,9 +747,10 @@ int execute(const ConvertCommand& command, const CommandContext& context) {
   set_options(sterna::options_of(settings.writing), command.writing, context);
   settings.is_numbering_given = !command.writing.empty();
   if (!command.options.empty())
-    throw Error({.code = ErrorCode::bad_argument,
-                 .attempted = "convert",
-                 .problem = "option " + command.options.front().first + " is for models (STEP, IGES, BREP, sumo, CPACS); " + command.input + " is none"});
+    throw Error(
+        {.code = ErrorCode::bad_argument,
+         .attempted = "convert",
+         .problem = "option " + command.options.front().first + " applies to models (STEP, IGES, BREP, sumo, CPACS); " + command.input + " is not a model"});
   const std::string what = convert({command.input, command.input}, command.output, settings, context.run);
   context.console.end_progress();
   context.run.info("wrote " + command.output.string() + ": " + what);
@@ -777,9 +779,9 @@ std::string draw_trouble(const Error& error, const std::filesystem::path& path) 
   if (error.info().geometry.empty()) return {};
   try {
     io::write_trouble_vtu(error.info().geometry, path);
-    return "\n  drawn in " + path.string();
+    return "\n  picture: " + path.string();
   } catch (const Error& failure) {
-    return std::string("\n  and it could not be drawn: ") + failure.what();
+    return std::string("\n  and the picture could not be written: ") + failure.what();
   }
 }
 

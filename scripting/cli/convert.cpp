@@ -61,22 +61,23 @@ std::string convert(const InputPath& input, const std::filesystem::path& output,
       throw Error({.code = ErrorCode::bad_argument, .attempted = "converting " + input.name, .problem = "--numbering has no effect: " + why});
   };
   if (settings.as_surface || !from.read_volume) {
-    require_no_numbering("a surface is written, which has no cells");
+    require_no_numbering("the output is a surface, which has no cells");
     io::format_to_write(output, io::FormatUse::write_surface, settings.format);
     return convert_surface(input, output, settings.format, context);
   }
   const MeshValue value = read_mesh(input, context.part("read", 0.0, k_convert_read_end), io::Incomplete::completed);
   const HybridMesh& mesh = value.mesh;
   if (count_cells(mesh).total() == 0) {
-    require_no_numbering("the file holds a surface, which has no cells");
+    require_no_numbering("the file has a surface, which has no cells");
     io::format_to_write(output, io::FormatUse::write_surface, settings.format);
     return convert_surface(input, output, settings.format, context);
   }
   if (!has_volume)
-    throw Error({.code = ErrorCode::unsupported_format,
-                 .attempted = "converting " + input.name + " into " + output.string(),
-                 .problem = "the input is a volume mesh of " + count_text(count_cells(mesh).total()) + " cells, the output's format holds surfaces only",
-                 .hint = "--surface writes the boundary; volume meshes are written as " + io::list_formats_with(io::FormatUse::write_volume)});
+    throw Error(
+        {.code = ErrorCode::unsupported_format,
+         .attempted = "converting " + input.name + " into " + output.string(),
+         .problem = "the input is a volume mesh of " + count_text(count_cells(mesh).total()) + " cells, but the format of the output stores surfaces only",
+         .hint = "give --surface to write the boundary; formats of volume meshes are " + io::list_formats_with(io::FormatUse::write_volume)});
   return convert_volume(input, value, output, settings, context.part("write", k_convert_read_end, 1.0));
 }
 

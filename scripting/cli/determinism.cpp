@@ -99,9 +99,9 @@ std::vector<std::string> words_of(const DeterminismCommand& command, int threads
   const std::string words = end_of(output);
   throw Error({.code = ErrorCode::script_failed,
                .attempted = "running " + command.script.string() + " with " + threads_text(threads),
-               .problem = "it failed, " + how + (words.empty() ? "" : ": " + words),
-               .hint = "files of the runs are kept in " + kept.string() + "; `sterna run " + command.script.string() + " --threads " + std::to_string(threads) +
-                       "` does the same"});
+               .problem = "the run failed, " + how + (words.empty() ? "" : ": " + words),
+               .hint = "the files of the runs are kept in " + kept.string() + "; `sterna run " + command.script.string() + " --threads " +
+                       std::to_string(threads) + "` repeats the run"});
 }
 
 /// Waits for the end of the process. \throws Error(cancelled) once the process has ended
@@ -124,7 +124,7 @@ void require_usable(const DeterminismCommand& command) {
   if (command.threads.size() < 2)
     throw Error({.code = ErrorCode::bad_argument,
                  .attempted = "--threads " + (command.threads.empty() ? std::string() : std::to_string(command.threads.front())),
-                 .problem = "one run alone cannot be compared",
+                 .problem = "one run cannot be compared",
                  .hint = "--threads 1,2,7, or the same number twice for two equal runs: --threads 2,2"});
 }
 
@@ -164,16 +164,16 @@ std::string to_text(const DeterminismReport& report) {
       static_cast<std::size_t>(std::ranges::count_if(report.files, [](const ComparedFile& file) { return !file.differences.empty(); }));
   const auto files = [](std::size_t n) { return std::to_string(n) + (n == 1 ? " file" : " files"); };
   std::string text = "G22 determinism: ";
-  if (report.files.empty()) text += "FAIL, the script wrote no file that could be compared\n";
+  if (report.files.empty()) text += "FAIL, the script wrote no file to compare\n";
   else if (n_different == 0) text += "pass, " + files(report.files.size()) + " equal for " + threads_text(report.threads) + "\n";
   else
     text += "FAIL, " + std::to_string(n_different) + " of " + files(report.files.size()) + (n_different == 1 ? " differs" : " differ") + " between " +
             threads_text(report.threads) + "\n";
   for (const ComparedFile& file : report.files) {
-    if (file.hash.empty()) text += fmt::format("  {}: {} wrote none\n", file.name, threads_text(report.threads.front()));
+    if (file.hash.empty()) text += fmt::format("  {}: {} did not write this file\n", file.name, threads_text(report.threads.front()));
     else text += fmt::format("  {}  {:>12} bytes  {}\n", file.hash, count_text(static_cast<std::int64_t>(file.bytes)), file.name);
     for (const ComparedFile::Difference& d : file.differences) {
-      if (d.hash.empty()) text += fmt::format("      {} wrote none\n", threads_text(d.threads));
+      if (d.hash.empty()) text += fmt::format("      {} did not write this file\n", threads_text(d.threads));
       else if (file.hash.empty())
         text += fmt::format("      {} wrote {} bytes, {}\n", threads_text(d.threads), count_text(static_cast<std::int64_t>(d.bytes)), d.hash);
       else
@@ -182,11 +182,11 @@ std::string to_text(const DeterminismReport& report) {
     }
   }
   if (!report.left_out.empty()) {
-    text += "  not compared, they hold times:";
+    text += "  not compared, because they contain times:";
     for (const std::string& name : report.left_out) text += " " + name;
     text += "\n";
   }
-  if (!report.kept.empty()) text += "  the runs are kept in " + report.kept.string() + "\n";
+  if (!report.kept.empty()) text += "  the files of the runs are kept in " + report.kept.string() + "\n";
   return text;
 }
 

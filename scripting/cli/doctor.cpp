@@ -70,9 +70,9 @@ Finding processor(const CommandContext& context) {
     finding.text += ", x86-64-v3";
     return finding;
   }
-  finding.text += ", not of x86-64-v3";
+  finding.text += ", not x86-64-v3";
   finding.health = Health::poor;
-  finding.remedy = "bytes of meshes are the same on machines of x86-64-v3 only (Haswell and newer)";
+  finding.remedy = "meshes have the same bytes only on x86-64-v3 machines (Haswell and newer)";
   return finding;
 }
 
@@ -82,7 +82,7 @@ Finding memory() {
                   .text = gigabytes(all) + fmt::format(", {} free: about {:.0f} million cells", gigabytes(free), free / k_bytes_of_cell / 1e6)};
   if (free > k_little_memory) return finding;
   finding.health = Health::poor;
-  finding.remedy = "a million cells take some hundred MB";
+  finding.remedy = "a million cells need some hundred MB";
   return finding;
 }
 
@@ -93,16 +93,16 @@ Finding temporary_folder() {
   Finding finding{.what = "temporary", .text = folder.string() + ", " + gigabytes(static_cast<double>(space.available)) + " free"};
   if (!failure && access(folder.c_str(), W_OK) == 0 && static_cast<double>(space.available) > k_little_room) return finding;
   finding.health = Health::broken;
-  finding.remedy = "engines keep their files there: set TMPDIR to a folder with room that can be written";
+  finding.remedy = "engines write files there: set TMPDIR to a writable folder with free space";
   return finding;
 }
 
 Finding page() {
   const bool has_report = !report_page().empty(), has_view = !view_page().empty();
-  if (has_report && has_view) return {.what = "page", .text = "report{} and sterna view have theirs"};
+  if (has_report && has_view) return {.what = "page", .text = "pages of report{} and sterna view are available"};
   return {.what = "page",
           .health = Health::poor,
-          .text = std::string(has_report ? "" : "report{} ") + (has_view ? "" : "sterna view ") + "has none",
+          .text = std::string(has_report ? "" : "report{} ") + (has_view ? "" : "sterna view ") + "has no page",
           .remedy = "build where npm can reach its registry"};
 }
 
@@ -110,7 +110,7 @@ Finding browser() {
   std::istringstream folders(std::getenv("PATH") ? std::getenv("PATH") : "");
   for (std::string folder; std::getline(folders, folder, ':');)
     if (access((fs::path(folder) / "xdg-open").c_str(), X_OK) == 0) return {.what = "browser", .text = "started by xdg-open"};
-  return {.what = "browser", .health = Health::poor, .text = "no xdg-open", .remedy = "sterna view then only says its address; xdg-utils has it"};
+  return {.what = "browser", .health = Health::poor, .text = "no xdg-open", .remedy = "sterna view then prints its address only; install xdg-utils"};
 }
 
 /// Meshes a box in a sphere: CAD, triangles, layers, tetrahedra, certificate, file.
@@ -134,8 +134,8 @@ Finding tiny_mesh(const std::string& engine, const CommandContext& context) {
     return {.what = what,
             .health = is_needed ? Health::broken : Health::poor,
             .text = error.what(),
-            .remedy =
-                is_needed ? "this installation cannot mesh: install it again" : "it is tried only where the own engine fails; a complete installation has it"};
+            .remedy = is_needed ? "this installation cannot mesh: install sterna again"
+                                : "used only if sterna's own engine fails; a complete installation includes it"};
   }
 }
 
@@ -158,16 +158,16 @@ int examine(const CommandContext& context) {
   tell(page());
   tell(browser());
   for (const char* engine : k_engines) tell(tiny_mesh(engine, context));
-  context.console.print(worst == Health::broken ? "It cannot mesh: see BROKEN."
-                        : worst == Health::poor ? "It can mesh; what is poor is said above."
-                                                : "All is well.");
+  context.console.print(worst == Health::broken ? "This installation cannot mesh: see BROKEN above."
+                        : worst == Health::poor ? "This installation can mesh; see poor above for limitations."
+                                                : "All tests passed.");
   return worst == Health::broken ? k_exit_failed : k_exit_success;
 }
 
 }  // namespace
 
 void add_doctor_command(CLI::App& app, const std::function<void(std::function<int(const CommandContext&)>)>& choose) {
-  app.add_subcommand("doctor", "say whether this installation works: versions, processor, memory, engines, page, browser, and a small mesh by each engine")
+  app.add_subcommand("doctor", "test this installation: versions, processor, memory, engines, page, browser, and a small mesh by each engine")
       ->final_callback([choose] { choose(examine); });
 }
 

@@ -66,38 +66,36 @@ std::string names_of(const InspectCommand& command) {
 void add_inspect_arguments(CLI::App& command, InspectCommand& inspect, const std::function<void()>& chosen) {
   command
       .add_option("surfaces", inspect.inputs,
-                  "surface files; several are joined to one wall. Or model files, whose faces are meshed first. `sterna formats` lists what is read")
+                  "surface files; several are joined to one wall. Or model files, whose faces are meshed first. `sterna formats` lists the formats")
       ->required();
   command
-      .add_option(
-          "-o,--output", inspect.output,
-          "picture of the trouble: .vtu, the surface with the predicted share of the layer's height, visibility angles, gaps and what was found; or .png")
+      .add_option("-o,--output", inspect.output,
+                  "picture of the findings: .vtu, the surface with the predicted fraction of the layer's height, visibility angles, gaps and findings; or .png")
       ->type_name("FILE");
   command.add_flag("--json", inspect.is_json, "print the report as JSON");
-  command.add_flag("--strict", inspect.is_strict, "exit status 1 also for warnings");
+  command.add_flag("--strict", inspect.is_strict, "exit status 1 also if there are warnings");
   command.add_option("--flow", inspect.flow, "flow conditions, for the y+ of the first height, e.g. --flow \"mach=0.78 altitude=11000 length=4.2\"")
       ->type_name("CONDITIONS");
   command
       .add_option(
           "--source", inspect.sources,
-          "shorter edges in a region, as of `sterna mesh`, e.g. --source \"cylinder from=1,0,0 to=8,0,0 radius=0.5 size=5cm\"; may be given several times")
+          "shorter edges in a region, as for `sterna mesh`, e.g. --source \"cylinder from=1,0,0 to=8,0,0 radius=0.5 size=5cm\"; may be given several times")
       ->type_name("SOURCE")
       ->allow_extra_args(false)
       ->take_all();
-  command.add_flag(
-      "--half", inspect.is_half,
-      "inspect the half of the surface beside a plane, as `sterna mesh --half` meshes it, by default y = 0 on the side of y > 0; others with --set "
-      "half.axis=z --set half.at=0.5 --set half.keep=-");
+  command.add_flag("--half", inspect.is_half,
+                   "inspect half of the surface, cut at a plane as by `sterna mesh --half`, by default the half y > 0; other planes with --set half.axis=z "
+                   "--set half.at=0.5 --set half.keep=-");
   surfmesh::StitchOptions surface;
   volmesh::InspectRequest request;
   add_schema_options(command, inspect_options(surface, request), inspect.options);
   add_set_option(command, inspect.options);
   add_patch_option(
       command, inspect.patches,
-      "what patches with such names ask for instead, as of `sterna mesh`, e.g. --patch \"tunnel*:layers=20,first_height=2e-5\"; may be given several times");
+      "options of patches with matching names, as for `sterna mesh`, e.g. --patch \"tunnel*:layers=20,first_height=2e-5\"; may be given several times");
   command.footer(
-      "Without --first-height the surface is looked at, but not how high the layers will be. Options of later stages (tetrahedra ...) are taken and have no "
-      "effect. Of models, options of their surface: --set surface_mesh.max_edge=0.2.");
+      "Without --first-height the surface is inspected, but layer heights are not predicted. Options of later stages (tetrahedra ...) are accepted without "
+      "effect. For models, options of the surface mesh are set with --set surface_mesh.max_edge=0.2.");
   command.final_callback(chosen);
 }
 
@@ -124,10 +122,10 @@ int execute(const InspectCommand& command, const CommandContext& context) {
   SurfaceRecipe unused_recipe;
   ReadCadOptions unused_reading;
   const std::string name_of_input = command.inputs.front();
-  const OptionsElsewhere elsewhere = is_model
-                                         ? OptionsElsewhere{sterna::options_of(unused_stitching), "is for triangulations, and " + name_of_input + " is a model"}
-                                         : OptionsElsewhere{model_surface_options(unused_recipe.options, unused_reading),
-                                                            "is for the faces of models, and " + name_of_input + " is a triangulation"};
+  const OptionsElsewhere elsewhere =
+      is_model ? OptionsElsewhere{sterna::options_of(unused_stitching), "applies to triangulations, and " + name_of_input + " is a model"}
+               : OptionsElsewhere{model_surface_options(unused_recipe.options, unused_reading),
+                                  "applies to the faces of models, and " + name_of_input + " is a triangulation"};
   set_options(is_model ? inspect_options_of_models(recipe, reading, request) : inspect_options(surface, request), others, context, {elsewhere});
   if (command.is_half) surface.allow_open = true;
   choose_solve_for(

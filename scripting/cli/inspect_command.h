@@ -17,8 +17,8 @@ class App;
 namespace sterna::scripting {
 
 inline constexpr std::string_view k_inspect_summary =
-    "predict in seconds what volume_mesh will make of a surface: what it refuses, where layers get low, where cells get bad, each with a line of advice. Exit "
-    "status 0 where nothing is an error, else 1";
+    "predict within seconds how volume_mesh will treat a surface: reasons to refuse it, low layers, bad cells, each with a line of advice. Exit status 0 if "
+    "there is no error, else 1";
 
 struct InspectCommand {
   std::vector<std::string> inputs;

@@ -87,7 +87,7 @@ LineEditor::~LineEditor() {
   std::error_code failure;
   std::filesystem::create_directories(history_file_.parent_path(), failure);
   if (!failure && write_history(history_file_.c_str()) == 0) return;
-  std::fprintf(stderr, "warning: the history could not be kept in %s\n", history_file_.c_str());
+  std::fprintf(stderr, "warning: the history could not be written to %s\n", history_file_.c_str());
 }
 
 std::optional<std::string> LineEditor::read(const std::string& prompt, const std::string& before, const std::stop_token& stop) {

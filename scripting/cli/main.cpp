@@ -11,9 +11,8 @@ namespace {
 /// Prints a last message for a crash in this program or in a library. The process still ends by the signal, so that the parent process can detect it.
 extern "C" void say_that_it_crashed(int signal) {
   const char* words =
-      "\nerror: sterna crashed; what it was writing does not appear under its name\n"
-      "  try: a larger limit where memory is limited (ulimit -v, the job's memory: libraries crash without); else please report this with the script and its "
-      "inputs\n";
+      "\nerror: sterna crashed; files that were being written are missing\n  try: a larger memory limit, if memory is limited (ulimit -v, the job's memory: "
+      "libraries crash without memory); otherwise please report this with the script and its inputs\n";
   [[maybe_unused]] const ssize_t n = ::write(STDERR_FILENO, words, std::strlen(words));
   std::signal(signal, SIG_DFL);
   ::raise(signal);

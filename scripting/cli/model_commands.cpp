@@ -43,13 +43,13 @@ int check_model(const CheckCommand& command, const CommandContext& context) {
   if (!command.models.empty())
     throw Error({.code = ErrorCode::bad_argument,
                  .attempted = "check",
-                 .problem = "--model is for volume meshes; " + command.input + " is a model itself",
+                 .problem = "--model applies to volume meshes; " + command.input + " is a model itself",
                  .hint = "sterna check mesh.su2 --model " + command.input});
   if (command.is_json)
-    throw Error({.code = ErrorCode::bad_argument, .attempted = "check", .problem = "--json is for volume meshes; " + command.input + " is a model"});
+    throw Error({.code = ErrorCode::bad_argument, .attempted = "check", .problem = "--json applies to volume meshes; " + command.input + " is a model"});
   refuse_without_effect(command.given,
                         {"--findings-per-kind", "--strict", "--for", "--cell-centred", "--no-cell-centred", "--cells", "--gate", "--intersections"}, "check",
-                        command.input + " is a model, of which check says whether it is closed");
+                        command.input + " is a model, for which check only reports whether it is closed");
   const ModelValue value = read_model(input_of(command.input), {}, context.run.part("read", 0.0, 1.0));
   context.console.end_progress();
   context.console.print(describe(value));
@@ -84,8 +84,8 @@ void refuse_on_triangulations(const SurfaceCommand& command) {
   if (names.empty()) return;
   throw Error({.code = ErrorCode::bad_argument,
                .attempted = "surface",
-               .problem = "no effect on a triangulation, which " + *input + " is: " + names,
-               .hint = "`sterna remesh " + *input + " ...` gives it new triangles with these sizes"});
+               .problem = "no effect, because " + *input + " is a triangulation: " + names,
+               .hint = "`sterna remesh " + *input + " ...` makes new triangles with these sizes"});
 }
 
 }  // namespace
@@ -134,7 +134,7 @@ int unite_models(const UnionCommand& command, const CommandContext& context) {
     if (!is_model_file(name))
       throw Error({.code = ErrorCode::bad_argument,
                    .attempted = "union",
-                   .problem = name + " is no model, the other files are",
+                   .problem = name + " is not a model, but other files are",
                    .hint = "unite models (STEP, IGES, BREP, sumo, CPACS) or surfaces (STL ...), not both"});
   UniteOptions options;
   ReadCadOptions reading;
@@ -161,8 +161,8 @@ int convert_model(const ConvertCommand& command, const CommandContext& context) 
   if (!command.settings.format.empty() || command.settings.as_surface)
     throw Error({.code = ErrorCode::bad_argument,
                  .attempted = "convert",
-                 .problem = "--format and --surface are for meshes; " + command.input + " is a model",
-                 .hint = "the extension of the output says the format: .step, .iges, .brep, .smx"});
+                 .problem = "--format and --surface apply to meshes; " + command.input + " is a model",
+                 .hint = "the extension of the output sets the format: .step, .iges, .brep, .smx"});
   refuse_without_effect(command.given, {"--numbering"}, "convert", command.input + " is a model, which has no cells");
   ReadCadOptions reading;
   WriteCadOptions writing;

@@ -39,7 +39,7 @@ SurfaceValue read_surface(const PentagrowCommand& command, const PentagrowCase& 
   if (!given.input_extension.empty() && path.extension() != given.input_extension)
     throw Error({.code = ErrorCode::bad_argument,
                  .attempted = "reading " + command.surface,
-                 .problem = "InputFormat says " + given.input_extension.substr(1) + ", the name of the file does not",
+                 .problem = "InputFormat is " + given.input_extension.substr(1) + ", but the name of the file has another format",
                  .hint = "leave InputFormat out, or rename the file"});
   surfmesh::StitchOptions reading;
   reading.allow_open = given.is_half;

@@ -133,12 +133,12 @@ class Entries {
       double value = 0.0;
       const auto [end, error] = std::from_chars(word.data() + (word.starts_with('+') ? 1 : 0), word.data() + word.size(), value);
       if (error != std::errc() || end != word.data() + word.size() || !std::isfinite(value)) {
-        add_problem(line_of(key), key + ": \"" + word + "\" is no number");
+        add_problem(line_of(key), key + ": \"" + word + "\" is not a number");
         return {};
       }
       values.push_back(value);
     }
-    if (values.empty()) add_problem(line_of(key), key + ": there is no value");
+    if (values.empty()) add_problem(line_of(key), key + ": the value is missing");
     return values;
   }
 
@@ -154,7 +154,7 @@ void read_formats(Entries& in, PentagrowCase& out) {
   if (const std::string format = in.text("InputFormat", ""); !format.empty()) {
     const std::map<std::string, std::string> known = {{"stl", ".stl"}, {"msh", ".msh"}, {"cgns", ".cgns"}, {"zml", ".zml"}};
     if (const auto found = known.find(format); found != known.end()) out.input_extension = found->second;
-    else in.refuse("InputFormat", "expected msh, stl, cgns or zml; the format follows from the file's name, too");
+    else in.refuse("InputFormat", "expected msh, stl, cgns or zml; without it the format follows from the file's name");
   }
   const bool is_given = in.has("OutputFormat");
   const std::string formats = in.text("OutputFormat", "bmsh");
@@ -180,15 +180,15 @@ void read_layers(Entries& in, volmesh::EnvelopeOptions& layer) {
   layer.max_growth = in.number("MaxGrowthRatio", 1.5, 1.0, 3.0);
   layer.feature_angle = k_degree * in.number("FeatureAngle", 44.0, 1.0, 177.0);
   if (in.number("SharpEdgeAngle", k_sharp_degrees, 0.0, 180.0) != k_sharp_degrees)
-    in.note("SharpEdgeAngle", "edges are sharp here above 120 degrees; there is no such setting");
+    in.note("SharpEdgeAngle", "edges above 120 degrees are sharp in sterna; this limit cannot be set");
   layer.height_sweeps = in.whole("HeightIterations", 5, 0, 1000);
   layer.direction_sweeps = in.whole("NormalIterations", 50, 0, 1000);
   layer.envelope_sweeps = in.whole("LaplaceIterations", 5, 0, 1000);
   layer.max_retract_sweeps = in.whole("MaxCritIterations", 99, 1, 1000);
-  if (!in.boolean("UntangleGrid", true)) in.note("UntangleGrid", "layers are always untangled here");
+  if (!in.boolean("UntangleGrid", true)) in.note("UntangleGrid", "sterna always untangles layers");
   if (in.number("MaxOptimizationTime", 30.0, 0.0) == 0.0) layer.optimiser = "none";
   else if (in.has("MaxOptimizationTime"))
-    in.note("MaxOptimizationTime", "the optimiser stops by its number of sweeps here, so that results repeat; 0 switches it off");
+    in.note("MaxOptimizationTime", "the optimiser of sterna stops after its number of sweeps, so that results are reproducible; 0 switches it off");
   in.boolean("VerboseOptimization", false);
 }
 
@@ -229,31 +229,31 @@ void read_tetgen_switches(Entries& in, const std::string& text, volmesh::MeshCas
     else if (letter == 'S' && value > 0.0) options.tetrahedra.max_new_points = value;
     else if (letter == 'a' && value > 0.0) options.size.size_max = std::cbrt(6.0 * std::sqrt(2.0) * value);  // edge of the regular tetrahedron of that volume
     else if (std::string_view("-pq aVQCDOAT").find(letter) == std::string_view::npos)
-      in.note("TetgenOptions", std::string("the switch ") + letter + " has no counterpart here");
+      in.note("TetgenOptions", std::string("the switch ") + letter + " has no equivalent in sterna");
   }
 }
 
 void read_tetrahedra(Entries& in, volmesh::MeshCase& options) {
   options.tetrahedra.radius_edge = 1.2;
-  if (in.has("TetgenPath")) in.note("TetgenPath", "sterna-tet-tetgen beside this program is used; another folder: sterna mesh --helper-folder");
+  if (in.has("TetgenPath")) in.note("TetgenPath", "sterna uses sterna-tet-tetgen beside this program; for another folder use sterna mesh --helper-folder");
   if (in.has("TetgenOptions")) read_tetgen_switches(in, in.text("TetgenOptions", ""), options);
   if (const double n = in.number("MaxSteinerPoints", 0.0, 0.0); n > 0.0) {
     options.tetrahedra.max_new_points = n;
-    in.note("MaxSteinerPoints", "more points than that are a failure here, not a coarser mesh");
+    in.note("MaxSteinerPoints", "in sterna more points are an error and do not give a coarser mesh");
   }
   if (const double edge = in.number("MaxGlobalEdgeLength", 0.0, 0.0); edge > 0.0) options.size.size_max = edge;
   if (const double growth = in.number("TetGrowthFactor", 0.0, 0.0, 2.0); growth > 1.0) {
     options.size.size_growth = std::max(growth, 1.02);
-    if (growth < 1.21 || growth > 1.6) in.note("TetGrowthFactor", "is outside of 1.21 .. 1.6");
+    if (growth < 1.21 || growth > 1.6) in.note("TetGrowthFactor", "is outside the range 1.21 .. 1.6");
   }
   for (const char* key : {"TetEdgeSmoothing", "TetEdgeDistrib"}) {
     in.number(key, 0.0, 0.0);
-    if (in.has(key)) in.note(key, "sizes are graded by TetGrowthFactor alone here");
+    if (in.has(key)) in.note(key, "sterna grades sizes by TetGrowthFactor only");
   }
   if (const std::string pass = in.text("Pass", "both"); pass != "both")
-    in.refuse(
-        "Pass",
-        "is not possible here; `sterna mesh wall.stl --stages case.sterna -o ...` keeps the steps of a run, and `sterna mesh case.sterna -o ...` continues");
+    in.refuse("Pass",
+              "is not available in sterna; `sterna mesh wall.stl --stages case.sterna -o ...` keeps the steps of a run, and `sterna mesh case.sterna -o ...` "
+              "continues");
 }
 
 void read_boxes(Entries& in, PentagrowCase& out) {
@@ -281,7 +281,7 @@ void read_nearfield(Entries& in, PentagrowCase& out) {
   out.nearfield_center = in.vectors("NearfieldCenter", 3, true);
   out.nearfield_axes = in.vectors("NearfieldSemiAxes", 3, true);
   if (std::ranges::any_of(out.nearfield_axes, [](double a) { return a <= 0.0; })) in.refuse("NearfieldSemiAxes", "expected numbers above zero");
-  if (out.nearfield_edge != 0.0) in.note("NearfieldEdgeLength", "the box around the ellipsoid is refined");
+  if (out.nearfield_edge != 0.0) in.note("NearfieldEdgeLength", "sterna refines the box around the ellipsoid");
 }
 
 }  // namespace

@@ -50,7 +50,8 @@ int run_prompt(const PromptSettings& settings, Console& console, InterruptGuard&
   interrupt.wait_for_late_work();
   ScriptState state(settings.script, context_of(settings, interrupt));
   LineEditor editor([&](const std::string& text) { return complete(text, state); }, settings.history_file);
-  if (editor.is_terminal()) console.print("sterna " STERNA_VERSION ": help() lists the verbs, help(volume_mesh) explains one, Tab completes, exit ends");
+  if (editor.is_terminal())
+    console.print("sterna " STERNA_VERSION ": help() lists the verbs, help(volume_mesh) explains a verb, Tab completes names, exit ends");
   int status = k_exit_success;
   for (bool is_last = false; !is_last;) {
     const auto statement = read_statement(state, editor, interrupt, is_last);

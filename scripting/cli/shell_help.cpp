@@ -178,27 +178,28 @@ std::string completion_script(const CLI::App& app, const std::string& shell) {
 
 std::string man_page(const CLI::App& app) {
   std::string text = ".TH STERNA 1\n.SH NAME\n" + roff(app.get_description()).replace(0, app.get_name().size() + 1, app.get_name() + " \\-") +
-                     "\n.SH SYNOPSIS\n.B sterna\n[options] command [arguments]\n.SH OPTIONS\nOf every command:\n" + roff_options(app) + ".SH COMMANDS\n";
+                     "\n.SH SYNOPSIS\n.B sterna\n[options] command [arguments]\n.SH OPTIONS\nOptions of every command:\n" + roff_options(app) +
+                     ".SH COMMANDS\n";
   for (const CLI::App* command : shown_commands(app)) {
     text += ".SS " + roff("sterna " + command->get_name()) + "\n" + roff(command->get_description()) + "\n" + roff_options(*command);
     if (!command->get_footer().empty()) text += ".PP\n" + roff(command->get_footer()) + "\n";
   }
   return text + ".SH EXIT STATUS\n" + roff(std::string(k_exit_status_help)) +
-         "\n.SH SEE ALSO\n.B sterna manual\nprints the verbs, objects and options of scripts; the same as docs/lua.md.\n";
+         "\n.SH SEE ALSO\n.B sterna manual\nprints the reference of verbs, objects and options of scripts, the same text as docs/lua.md.\n";
 }
 
 void add_shell_commands(CLI::App& app, const std::function<void(std::function<int(const CommandContext&)>)>& choose) {
-  CLI::App* completion = app.add_subcommand("completion", "print a script that completes commands, options and file names at the prompt of bash, zsh or fish");
+  CLI::App* completion = app.add_subcommand("completion", "print a completion script for commands, options and file names of bash, zsh or fish");
   const CLI::Option* shell =
-      completion->add_option("shell", "which shell")->required()->type_name("bash|zsh|fish")->check(CLI::IsMember({"bash", "zsh", "fish"}).name(""));
+      completion->add_option("shell", "name of the shell")->required()->type_name("bash|zsh|fish")->check(CLI::IsMember({"bash", "zsh", "fish"}).name(""));
   completion->final_callback([&app, shell, choose] {
     choose([&app, shell](const CommandContext& context) {
       context.console.print(completion_script(app, shell->as<std::string>()));
       return k_exit_success;
     });
   });
-  CLI::App* help = app.add_subcommand("help", "say what a command does (as --help), or a verb, object or option of scripts (as help \"name\" in a script)");
-  const CLI::Option* about = help->add_option("name", "mesh, volume_mesh, max_growth ...; without one: all commands")->type_name("NAME");
+  CLI::App* help = app.add_subcommand("help", "explain a command (as --help), or a verb, object or option of scripts (as help \"name\" in a script)");
+  const CLI::Option* about = help->add_option("name", "name to explain: mesh, volume_mesh, max_growth ...; default: list of all commands")->type_name("NAME");
   help->final_callback([&app, about, choose] {
     choose([&app, about](const CommandContext& context) {
       const auto name = about->count() > 0 ? about->as<std::string>() : std::string();

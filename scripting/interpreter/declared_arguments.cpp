@@ -93,7 +93,7 @@ std::vector<std::string> add_declared(ScriptSession& session, const std::string&
       declared.list.push_back(std::move(parameter));
     } else if (!is_same_declaration(*before, parameter)) {
       problems.push_back("argument " + parameter.name + ": " + declared.places[parameter.name] +
-                         " declares it with another default or other limits; declare it once, or in the same way in both places");
+                         " declares it with another default or other limits; declare it once, or identically in both places");
     }
   }
   return problems;

@@ -107,10 +107,10 @@ void set_number_parameter(ScriptParameter& parameter, const std::string& text, T
   const std::string unit = parameter.unit.empty() ? "" : " " + parameter.unit;
   const double slack = 1e-9 * std::max(std::abs(parameter.min.value_or(0.0)), std::abs(parameter.max.value_or(0.0)));  // 20deg equals 20 only up to rounding
   if (parameter.min && in_unit < *parameter.min - slack)
-    reader.add_problem("argument " + parameter.name + "=" + text + ": " + number_text(in_unit, 6) + unit + " is below the least value, " +
+    reader.add_problem("argument " + parameter.name + "=" + text + ": " + number_text(in_unit, 6) + unit + " is below the minimum, " +
                        number_text(*parameter.min, 6) + unit);
   if (parameter.max && in_unit > *parameter.max + slack)
-    reader.add_problem("argument " + parameter.name + "=" + text + ": " + number_text(in_unit, 6) + unit + " is above the greatest value, " +
+    reader.add_problem("argument " + parameter.name + "=" + text + ": " + number_text(in_unit, 6) + unit + " is above the maximum, " +
                        number_text(*parameter.max, 6) + unit);
   parameter.value = in_unit * parameter.unit_value;
 }
@@ -135,7 +135,7 @@ ScriptValue declare_number(const ScriptCall& call) {
   }
   if (!reader.has_problems()) {
     const ScriptParameter made = *number_parameter("", TableHandle(result));
-    if (made.min && made.max && *made.min >= *made.max) reader.add_problem("min: is not below max");
+    if (made.min && made.max && *made.min >= *made.max) reader.add_problem("min: must be below max");
     if (made.min && *initial < *made.min) reader.add_problem("the default " + number_text(*initial, 6) + " is below min");
     if (made.max && *initial > *made.max) reader.add_problem("the default " + number_text(*initial, 6) + " is above max");
   }
@@ -159,7 +159,7 @@ ScriptValue declare(const ScriptCall& of_table) {
       declared.push_back(std::move(*number));
       continue;
     }
-    if (!is_value(value)) reader.add_problem(name + ": a default is a number, a text, true or false, not " + std::string(type_text(value)));
+    if (!is_value(value)) reader.add_problem(name + ": expected a number, a string, true or false as the default, not " + std::string(type_text(value)));
     const std::string* text = given(call, name);
     result.fields[name] = text && is_value(value) ? value_like(name, *text, value, reader) : value;
     declared.push_back({.name = name, .initial = value, .value = result.fields[name], .min = {}, .max = {}, .step = {}});
@@ -187,7 +187,7 @@ ScriptValue declare(const ScriptCall& of_table) {
 /// Reads args.alpha.
 ScriptValue read_argument(const ScriptCall& call) {
   const auto* name = call.arguments.size() < 2 ? nullptr : std::get_if<std::string>(&call.arguments[1]);
-  if (!name) reject(call, "arguments are named", std::string(k_script_args_usage));
+  if (!name) reject(call, "the name of an argument must be a string", std::string(k_script_args_usage));
   if (const std::string* text = given(call, *name)) return value_of(*text);
   if (call.session.check) return std::int64_t{1};
   std::vector<std::string> known;
@@ -199,12 +199,12 @@ ScriptValue read_argument(const ScriptCall& call) {
 
 constexpr std::array<ScriptVerb, 2> k_script_args_verbs = {{
     {"args", k_script_args_usage,
-     "What the command line says, `sterna run case.lua alpha=4 height=2mm half=true`: names with their defaults, or as texts where they must be given; "
-     "args.alpha reads one alone. Script and modules may each call args{}.",
+     "Returns the arguments of the command line, `sterna run case.lua alpha=4 height=2mm half=true`. Names with defaults are optional, names as strings are "
+     "required. args.alpha reads a single argument. A script and its modules can each call args{}.",
      declare},
     {"number", k_number_usage,
-     "Of args{}: a default with limits and a unit, in which all of them and bare numbers of the command line count; the script gets the value in SI. "
-     "`sterna view` shows a slider.",
+     "Defines an argument of args{} with default, limits and unit. The unit applies to default, limits and numbers without unit on the command line; the "
+     "script gets the value in SI. `sterna view` shows a slider.",
      declare_number},
 }};
 

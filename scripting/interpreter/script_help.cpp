@@ -124,7 +124,8 @@ std::string help_text() {
   for (const ScriptVerb* verb : all_verbs()) text += std::string(verb->name) + ": " + std::string(verb->summary) + "\n  " + std::string(verb->usage) + "\n";
   text += "numbers:";
   for (const ScriptUnit& unit : script_units()) text += (&unit == script_units().data() ? " " : ", ") + std::string(unit.name);
-  return text + ". help(volume_mesh) prints the options of a verb, help(wall) the methods and fields of an object, help \"first_height\" who takes an option.";
+  return text +
+         ". help(volume_mesh) prints the options of a verb, help(wall) the methods and fields of an object, help \"first_height\" the verbs with an option.";
 }
 
 std::string help_if_known(const std::string& name) {
@@ -148,7 +149,7 @@ std::string help_on_name(const std::string& name, const std::string& attempted) 
   throw Error({.code = ErrorCode::bad_argument,
                .attempted = attempted,
                .problem = "there is no verb, object or option \"" + name + "\"" + (nearest.empty() ? "" : ", did you mean \"" + nearest + "\"?"),
-               .hint = "help() lists the verbs, `sterna manual` all with their options"});
+               .hint = "help() lists the verbs, `sterna manual` all verbs with their options"});
 }
 
 ScriptValue print_help(const ScriptCall& call) {
@@ -163,7 +164,7 @@ ScriptValue print_help(const ScriptCall& call) {
   else if (const auto* table = std::get_if<TableHandle>(&about);
            table && (*table)->fields.contains("shape") && std::holds_alternative<std::string>((*table)->fields.at("shape")))
     call.session.print(help_on_name(std::get<std::string>((*table)->fields.at("shape")), call.attempted()));
-  else reject(call, "there is no help on " + std::string(type_text(about)), "help() lists the verbs; a name that is misspelt is nil");
+  else reject(call, "there is no help for " + std::string(type_text(about)), "help() lists the verbs; a misspelt name has the value nil");
   return std::monostate{};
 }
 

@@ -12,19 +12,19 @@ constexpr std::string_view k_head = R"(# Lua reference
 
 Made by `sterna manual` from the tables of verbs and options; a test fails when this file is stale. Do not edit it.
 
-One call is one verb with one table of named entries: `volume_mesh{ wall, layers = 30, first_height = 2e-6 }`. Lengths are metres, angles radians; `m`, `mm`, `um`, `cm`, `inch`, `ft` and `deg`
-are numbers: `5*mm`, `40*deg`. An entry that a verb does not know, of a wrong type or out of range is an error at file:line, with a suggestion; all problems of a table are told together.
-Options of a stage may stand in a table of its name: `envelope = { layers = 30 }`. `"automatic"` asks for the default of an option that has one.
+A call is one verb with one table of named entries: `volume_mesh{ wall, layers = 30, first_height = 2e-6 }`. Lengths are in metres, angles in radians; `m`, `mm`, `um`, `cm`, `inch`, `ft` and `deg`
+are numbers: `5*mm`, `40*deg`. An unknown entry, a wrong type or a value out of range is an error at file:line, with a suggestion; all problems of a table are reported together.
+Options of a stage can be given in a table with the name of the stage: `envelope = { layers = 30 }`. `"automatic"` requests the automatic value of an option that has one.
 
-`sterna run case.lua` runs a script, `sterna` alone is a prompt, `help(volume_mesh)`, `help(wall)` and `help "first_height"` print what is here. Scripts see Lua's base (without dofile, loadfile and
-load), `table`, `string`, `math` and `utf8`; `require "name"` loads name.lua beside the script; `math.random` follows from `--seed`; `__gc` is not available. Their own values may take 1 GiB.
-`pairs` goes in ascending order of its keys. Names that nothing has are errors, not nil. Files are looked for in the current folder, then beside the script.
+`sterna run case.lua` runs a script, `sterna` without a command opens a prompt. `help(volume_mesh)`, `help(wall)` and `help "first_height"` print parts of this page. Scripts have Lua's base library
+(without dofile, loadfile and load), `table`, `string`, `math` and `utf8`; `require "name"` loads name.lua beside the script; `math.random` depends on `--seed`; `__gc` is not available. Lua values of a
+script can use up to 1 GiB. `pairs` visits keys in ascending order. Undefined names are errors, not nil. Files are searched in the current folder, then beside the script.
 
-`sterna check-script case.lua` runs a script without meshing: every verb reads its whole table, those that would work long or write end there and give an object that stands for the result. It finds
-unknown verbs, misspelt keys, wrong types, units and ranges, missing files, all of them in one go. It does not see what depends on results: names of patches and parts of what is read or meshed,
-numbers of fields, lines that only run then, code in branches that are not taken, and what geometry makes impossible.
+`sterna check-script case.lua` runs a script without meshing: every verb reads its whole table; verbs that mesh or write files stop there and return a placeholder. The check finds unknown verbs,
+misspelt keys, wrong types, units and ranges, and missing files, all at once. It does not find problems that depend on results: names of patches and parts that are read or meshed, values of
+fields, lines that run only with certain results, branches that are not taken, and geometry that cannot be meshed.
 
-`sterna run case.lua alpha=4 --set envelope.layers=24` gives the script the argument `alpha` (see `args`) and sets options of whichever verb takes them, over what the script says.
+`sterna run case.lua alpha=4 --set envelope.layers=24` gives the script the argument `alpha` (see `args`) and sets options of all verbs that have them, with priority over the script.
 )";
 
 constexpr std::string_view k_setup =
@@ -70,7 +70,7 @@ std::string_view without_article(std::string_view gives) { return gives == "self
 
 std::string verb_markdown(const ScriptVerb& verb) {
   std::string text = "\n### " + std::string(verb.name) + "\n\n" + std::string(verb.summary);
-  if (!verb.gives.empty()) text += " Gives: " + std::string(without_article(verb.gives)) + ".";
+  if (!verb.gives.empty()) text += " Returns: " + std::string(without_article(verb.gives)) + ".";
   text += "\n\n```lua\n";
   for (const std::string& example : examples_of(verb)) text += example + "\n";
   return text + "```\n" + options_markdown(verb);
@@ -90,7 +90,7 @@ std::string_view manual_setup() { return k_setup; }
 
 std::string manual_text(std::string_view commands) {
   std::string text(k_head);
-  text += "\n## What the examples name\n\n```lua\n" + std::string(k_setup) + "```\n\n## Verbs\n";
+  text += "\n## Objects of the examples\n\n```lua\n" + std::string(k_setup) + "```\n\n## Verbs\n";
   std::vector<const ScriptVerb*> verbs;
   for (const ScriptVerb& verb : script_verbs()) verbs.push_back(&verb);
   std::sort(verbs.begin(), verbs.end(), [](const ScriptVerb* a, const ScriptVerb* b) { return a->name < b->name; });

@@ -29,8 +29,7 @@ void check_script(const ScriptSettings& settings, ScriptCheck& check, const RunC
   } catch (const Error& error) {
     if (error.code() == ErrorCode::cancelled) throw;
     ErrorInfo info = error.info();
-    if (error.code() == ErrorCode::script_failed)
-      info.hint += (info.hint.empty() ? "" : "; ") + std::string("what the script does after this line was not looked at");
+    if (error.code() == ErrorCode::script_failed) info.hint += (info.hint.empty() ? "" : "; ") + std::string("the script was not checked after this line");
     check.problems.push_back(std::make_shared<const Error>(std::move(info)));
   }
 }

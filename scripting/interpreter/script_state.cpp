@@ -277,7 +277,7 @@ void run_protected(lua_State* state, Source source, std::string& traceback, std:
   if (status == LUA_ERRMEM)
     throw Error({.code = ErrorCode::script_failed,
                  .attempted = session_of(state).script.string(),
-                 .problem = "the script needs more than " + std::to_string(memory_limit >> 20) + " MiB for its own values"});
+                 .problem = "the script needs more than " + std::to_string(memory_limit >> 20) + " MiB for its Lua values"});
   const Error error = with_suggestion(error_on_top(state));
   lua_settop(state, 0);
   throw with_traceback(error, traceback);

@@ -209,9 +209,9 @@ std::string write_files_help() {
 std::string check_help() {
   CheckSettings options;
   return options_help(sterna::options_of(options)) + gate_limits_help() +
-         "details = true: prints all gates with their worst places, as `sterna check` does, not only the verdict and the worst three\n" +
-         "cells = \"cells.vtu\": writes the mesh with the quality of each cell, as VTK has it\n" +
-         "wall = wall: the surface of surface_mesh that the mesh was made of; its nodes and facets are compared with the model (gates G17, G18)\n";
+         "details = true: prints all gates with their worst locations, as `sterna check`, instead of the verdict and the worst three\n" +
+         "cells = \"cells.vtu\": writes the mesh with the quality of each cell, as VTK defines it\n" +
+         "wall = wall: the surface of surface_mesh from which the mesh was made; nodes and facets of the mesh are compared with its model (gates G17, G18)\n";
 }
 
 ScriptValue check_mesh(const ScriptCall& call) {
@@ -348,46 +348,47 @@ ScriptValue error_field(const ScriptCall& call) {
 std::string surface_help() {
   surfmesh::StitchOptions options;
   return options_help(sterna::options_of(options)) +
-         "repair = true or { gap = 1e-3, ... }, wrap = true or { edge = 0.01, ... }: as those verbs do it; auto = true: as it is where that can be meshed, "
-         "else repaired, "
-         "else wrapped, then remeshed where it is full of needles (models, too)\n"
-         "remesh = true or { max_edge = 0.1, ... }: new triangles, as the verb remesh makes them\n";
+         "repair = true or { gap = 1e-3, ... }, wrap = true or { edge = 0.01, ... }: applies these verbs; auto = true: takes the surface (or model) unchanged "
+         "if it can be meshed, otherwise repairs it, otherwise wraps it, then remeshes it if it has many sliver triangles\nremesh = true or { max_edge = 0.1, "
+         "... }: applies the verb remesh\n";
 }
 std::string union_help() {
   UnionOptions options;
   surfmesh::StitchOptions reading;
   UniteOptions models;
-  return options_help(sterna::options_of(options)) + options_help(unit_option(reading)) + "of models:\n" + options_help(sterna::options_of(models));
+  return options_help(sterna::options_of(options)) + options_help(unit_option(reading)) + "for models:\n" + options_help(sterna::options_of(models));
 }
 std::string volume_help() {
   volmesh::MeshCase options;
   return options_help(volmesh::options_of(options)) + layer_rules_help() +
-         "periodic = { { \"left\", \"right\" }, ... }: flat sides that are each other's image, moved; the mesh matches there node by node and face by face\n";
+         "periodic = { { \"left\", \"right\" }, ... }: pairs of flat sides, each the translated image of the other; the meshes of both sides match node by "
+         "node and face by face\n";
 }
 
 constexpr std::array<ScriptVerb, 6> k_first_verbs = {{
     {"read_surface", k_read_surface_usage, "Reads surface files and joins them to one wall.", read_surface, surface_help, true, "surface"},
-    {"union", k_union_usage, "Unites closed surfaces that stick in each other, or the crossing parts of one file, to one wall; or models to one model.", unite,
+    {"union", k_union_usage, "Unites closed surfaces that intersect, or the crossing parts of one file, to one wall; or unites models to one model.", unite,
      union_help, true, "model or surface", true},
     {"read_mesh", k_read_mesh_usage, "Reads a volume mesh.", read_mesh_file, nullptr, true, "mesh"},
     {"volume_mesh", k_volume_mesh_usage, "Meshes the space around a wall: prism layers on it, tetrahedra to the farfield.", make_mesh, volume_help, true,
      "mesh"},
-    {"sphere", k_sphere_usage, "A spherical farfield, for volume_mesh; with centre and size a source of small tetrahedra.", make_sphere, sphere_help, false,
-     "source"},
+    {"sphere", k_sphere_usage, "Spherical farfield for volume_mesh; with a centre and size: a source of short edges, for volume_mesh and surface_mesh.",
+     make_sphere, sphere_help, false, "source"},
     {"help", "help(volume_mesh)  or  help(wall)  or  help \"mesh:write\"  or  help \"first_height\"",
-     "Prints what a verb does and its options; of an object its methods and fields; of an option the verbs that take it.", print_help},
+     "Explains a verb with its options, an object with its methods and fields, or an option with the verbs that take it.", print_help},
 }};
 constexpr ScriptVerb k_write_surface = {"surface:write", "wall:write \"wall.vtu\"", "Writes a surface.", write_surface_files, nullptr, true, "self"};
 constexpr std::array<ScriptVerb, 4> k_mesh_methods = {{
     {"mesh:check", "mesh:check()  or  mesh:check{ wall = wall }",
-     "Proves that the mesh tiles its domain and prints the verdict; an INVALID mesh is an error that names the places.", check_mesh, check_help, true, "self"},
+     "Proves that the mesh tiles its domain and prints the verdict; an INVALID mesh is an error that lists the locations.", check_mesh, check_help, true,
+     "self"},
     {"mesh:write", "mesh:write(\"mesh.su2\", \"mesh.vtu\")  or  mesh:write{ \"mesh.su2\", numbering = \"both\" }",
      "Writes the mesh, each file with a manifest <file>.json beside it.", write_mesh_files, write_files_help, true, "self"},
-    {"mesh:su2_config", k_su2_config_usage, "Writes a configuration of SU2 for the mesh: markers, flow, reference values and settings to start from.",
-     write_su2_config, su2_config_help, true, "self"},
+    {"mesh:su2_config", k_su2_config_usage, "Writes an SU2 configuration for the mesh: markers, flow, reference values and initial settings.", write_su2_config,
+     su2_config_help, true, "self"},
     {"mesh:foam_case", k_foam_case_usage,
-     "Writes a case of OpenFOAM that can be run: mesh, fields by the kinds of patches, models, schemes for such meshes, forces, Allrun.", write_foam_case,
-     foam_case_help, true, "self"},
+     "Writes a complete OpenFOAM case: mesh, fields by the kinds of patches, models, schemes for such meshes, forces, Allrun.", write_foam_case, foam_case_help,
+     true, "self"},
 }};
 constexpr std::array<ScriptUnit, 7> k_units = {
     {{"m", 1.0}, {"mm", 1e-3}, {"um", 1e-6}, {"cm", 1e-2}, {"inch", 0.0254}, {"ft", 0.3048}, {"deg", std::numbers::pi / 180.0}}};
@@ -440,8 +441,8 @@ std::span<const ScriptUnit> script_units() { return k_units; }
 std::string hint_for_global(std::string_view name) {
   constexpr std::array<std::string_view, 8> k_left_out = {"io", "os", "debug", "package", "coroutine", "load", "loadfile", "dofile"};
   if (std::ranges::find(k_left_out, name.substr(0, name.find('.'))) != k_left_out.end())
-    return "scripts have Lua's string, table, math and utf8, and require for modules beside them; files are read and written by verbs, numbers come in by "
-           "args{}";
+    return "scripts have Lua's string, table, math and utf8, and require for modules beside the script; verbs read and write files, args{} reads numbers of "
+           "the command line";
   std::vector<std::string> known;
   for (const ScriptVerb& verb : script_verbs()) known.emplace_back(verb.name);
   for (const ScriptUnit& unit : k_units) known.emplace_back(unit.name);

@@ -56,7 +56,7 @@ MeshHandle make_mesh() {
 }
 
 ModelHandle make_model() {
-  ModelValue value{.without_description = "it only stands for a model"};
+  ModelValue value{.without_description = "it is a placeholder for a model"};
   value.model = make_box("model", Point{0.0, 0.0, 0.0}, Point{1.0, 1.0, 1.0});
   return std::make_shared<const ModelValue>(std::move(value));
 }

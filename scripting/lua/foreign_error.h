@@ -25,7 +25,7 @@ inline ErrorInfo foreign_error(const std::exception& error, std::string attempte
   if (of_system != nullptr && of_system->code() == std::errc::resource_unavailable_try_again)
     return {.code = ErrorCode::overflow,
             .attempted = std::move(attempted),
-            .problem = "the system starts no more threads or processes: its limit of memory or of processes is reached",
+            .problem = "the system cannot start more threads or processes: its limit of memory or processes is reached",
             .hint = "a larger limit (ulimit -v, ulimit -u, the job's memory), --threads 1, or fewer tasks at once on this machine"};
   return {.code = ErrorCode::internal, .attempted = std::move(attempted), .problem = error.what(), .hint = "please report this with the script and its inputs"};
 }

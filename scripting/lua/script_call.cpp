@@ -272,7 +272,7 @@ void push_operand(lua_State* state, int index) {
   const ObjectBox* box = box_at(state, index);
   const QuantityHandle* quantity = box ? std::get_if<QuantityHandle>(&box->value) : nullptr;
   if (!quantity) lua_pushvalue(state, index);
-  else if (!(*quantity)->is_length()) luaL_error(state, "flow conditions are no number");
+  else if (!(*quantity)->is_length()) luaL_error(state, "flow conditions are not a number");
   else lua_pushnumber(state, (*quantity)->metres);
 }
 
@@ -359,7 +359,7 @@ Error error_on_top(lua_State* state) {
   if (lua_type(state, -1) == LUA_TSTRING) return Error({.code = ErrorCode::script_failed, .attempted = {}, .problem = lua_tostring(state, -1)});
   return Error({.code = ErrorCode::script_failed,
                 .attempted = session_of(state).script.string(),
-                .problem = "error() was called with " + std::string(lua_typename(state, lua_type(state, -1))) + " instead of a text"});
+                .problem = "error() was called with " + std::string(lua_typename(state, lua_type(state, -1))) + " instead of a string"});
 }
 
 }  // namespace sterna::scripting

@@ -44,7 +44,7 @@ void check_input(const ScriptCall& call, const InputPath& file) {
   throw Error({.code = ErrorCode::file_not_found,
                .attempted = call.attempted(),
                .problem = "there is no file " + file.name,
-               .hint = "files are looked for in the current folder, then beside the script"});
+               .hint = "files are searched in the current folder, then beside the script"});
 }
 
 }  // namespace sterna::scripting

@@ -65,7 +65,7 @@ bool read_module(ScriptSession& session, const char* name, const char* where) no
     if (module.find_first_not_of("abcdefghijklmnopqrstuvwxyzABCDEFGHIJKLMNOPQRSTUVWXYZ0123456789_-") != std::string::npos)
       throw Error({.code = ErrorCode::bad_argument,
                    .attempted = "require \"" + module + "\"",
-                   .problem = "modules lie beside the script and are named with letters, digits, - and _"});
+                   .problem = "modules must be beside the script, with names of letters, digits, - and _"});
     const std::filesystem::path path = session.script.parent_path() / (module + ".lua");
     note_input(session.series, path);
     session.value = session.series.modules[module] = read_script(path);

@@ -11,7 +11,7 @@ std::string_view type_text(const ScriptValue& value) {
     std::string_view operator()(bool) const { return "true or false"; }
     std::string_view operator()(std::int64_t) const { return "a number"; }
     std::string_view operator()(double) const { return "a number"; }
-    std::string_view operator()(const std::string&) const { return "a text"; }
+    std::string_view operator()(const std::string&) const { return "a string"; }
     std::string_view operator()(const std::shared_ptr<const ScriptTable>&) const { return "a table"; }
     std::string_view operator()(const SurfaceHandle&) const { return "a surface"; }
     std::string_view operator()(const EnvelopeHandle&) const { return "an envelope"; }

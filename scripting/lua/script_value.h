@@ -21,7 +21,7 @@ struct OpaqueValue {
   std::string_view type_name;
 };
 /// Type name of an unknown value in a script that is only checked.
-inline constexpr std::string_view k_unknown_value = "something that is not made when a script is only checked";
+inline constexpr std::string_view k_unknown_value = "an object that does not exist while a script is checked";
 
 using ErrorHandle = std::shared_ptr<const Error>;
 using ScriptValue =

@@ -32,7 +32,7 @@ std::string_view kind_text(OptionKind kind) {
     case OptionKind::boolean: return "true or false";
     case OptionKind::integer: return "a whole number";
     case OptionKind::number: return "a number";
-    case OptionKind::text: return "a text";
+    case OptionKind::text: return "a string";
   }
   return "a value";
 }
@@ -86,7 +86,7 @@ std::size_t TableReader::read_options(const OptionTable& options) {
       set(*option, key, value);
     } else if (is_stage(options, key)) {
       asked_.insert(key);
-      add_problem(key + ": expected a table of the options of this stage, not " + std::string(type_text(value)));
+      add_problem(key + ": expected a table with options of this stage, not " + std::string(type_text(value)));
     }
   }
   return given_.size() - n_before;
@@ -115,7 +115,7 @@ void TableReader::set(const Option& option, const std::string& key, const Script
     if (const auto* flag = std::get_if<bool>(&value)) set_option(option, *flag);
     else if (const auto* whole = std::get_if<std::int64_t>(&value)) set_option(option, *whole);
     else if (const auto* text = std::get_if<std::string>(&value)) set_option(option, *text);
-    else if (const auto* number = std::get_if<double>(&value); number && is_automatic(*number)) add_problem(key + ": is not a number (0/0 or the like)");
+    else if (const auto* number = std::get_if<double>(&value); number && is_automatic(*number)) add_problem(key + ": is not a number (NaN, e.g. from 0/0)");
     else if (number) set_option(option, *number);
     else if (const auto* quantity = std::get_if<QuantityHandle>(&value);
              quantity && (*quantity)->is_length() && option.kind == OptionKind::number && option.unit == Unit::metre) {
@@ -175,7 +175,7 @@ void TableReader::finish() {
   for (const std::string& key : table_.unknown_fields)
     if (!contains(known_, key)) add_unknown(key, known_);
   if (!are_items_asked_ && !table_.items.empty()) add_problem("entry 1: every entry of this table needs a name");
-  for (const std::string& key : table_.other_keys) add_problem("key " + key + ": keys are names");
+  for (const std::string& key : table_.other_keys) add_problem("key " + key + ": keys must be names");
   if (problems_.empty() && ends_with_checks_) throw ChecksDone{};
   if (problems_.empty()) return;
   std::string text;

@@ -68,7 +68,7 @@ std::vector<std::filesystem::path> output_names(const ScriptCall& call, const Op
     const auto* table = std::get_if<TableHandle>(&call.arguments[i]);
     if (!table) add(call.arguments[i]);
     else {
-      if (schema.empty() && !(*table)->fields.empty()) reject(call, "takes file names and no options (\"" + (*table)->fields.begin()->first + "\")");
+      if (schema.empty() && !(*table)->fields.empty()) reject(call, "takes file names only, no options (\"" + (*table)->fields.begin()->first + "\")");
       TableReader reader(**table, call.attempted());
       for (const ScriptValue& item : reader.items()) add(item);
       reader.read_options(schema);
@@ -99,7 +99,8 @@ ScriptValue select_field(const ScriptCall& call, Fields fields, std::span<const 
   for (const std::string& other : known) all += (all.empty() ? "" : ", ") + other;
   throw Error({.code = ErrorCode::unknown_option,
                .attempted = call.attempted(),
-               .problem = name ? "there is no \"" + *name + "\"" + (nearest.empty() ? "" : ", did you mean \"" + nearest + "\"?") : "fields are named",
+               .problem = name ? "there is no \"" + *name + "\"" + (nearest.empty() ? "" : ", did you mean \"" + nearest + "\"?")
+                               : "the name of a field must be a string",
                .hint = all});
 }
 

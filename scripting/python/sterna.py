@@ -1,12 +1,12 @@
-"""sterna from Python: its commands as functions, their JSON as dictionaries. One file, standard library only; docs/python.md shows it at work.
+"""Python interface of sterna: commands as functions, JSON as dictionaries. One file, standard library only; docs/python.md has examples.
 
     import sterna
     wall = sterna.surface("d150.xml", "wall.stl", max_edge=0.4)
     mesh = sterna.mesh("wall.stl", "case.su2", layers=30, first_height=1e-5, farfield="sphere radius=400")
     print(mesh["verdict"], mesh["mesh"]["nodes"], sterna.check("case.su2")["quality_verdict"])
 
-Options are those of the command line with _ for - (`sterna mesh --help`): numbers, text, True and False; a list gives an option several times. Lengths are metres, angles degrees
-or text with a unit ("12*deg"), as there. What goes wrong raises SternaError with the program's own words.
+Options are those of the command line with _ for - (`sterna mesh --help`): numbers, strings, True and False; a list gives an option several times. Lengths are metres, angles degrees
+or strings with a unit ("12*deg"), as on the command line. Errors raise SternaError with the message of the program.
 """
 from __future__ import annotations
 
@@ -40,7 +40,7 @@ _K_STOP_SECONDS = 10.0  # sterna ends within a second of an interrupt; its engin
 
 @dataclasses.dataclass(frozen=True)
 class Progress:
-    """What a progress callback is given."""
+    """Argument of a progress callback."""
 
     share: float  # of the work, 0 .. 1
     stage: str  # "volume_mesh/envelope"
@@ -49,14 +49,14 @@ class Progress:
 
 @dataclasses.dataclass(frozen=True)
 class Place:
-    """A place that a message names."""
+    """A location in a message."""
 
     at: tuple[float, float, float]  # m
     what: str
 
 
 class SternaError(RuntimeError):
-    """A command failed. str() is the program's message: what was attempted, what is wrong, where, what to try."""
+    """A command failed. str() is the message of the program: attempted action, problem, locations, remedy."""
 
     def __init__(self, message: str, command: list[str] | None = None, status: int | None = None, output: str = "", warnings: list[str] | None = None):
         super().__init__(message)
@@ -68,14 +68,14 @@ class SternaError(RuntimeError):
 
     @property
     def places(self) -> list[Place]:
-        """Places of the message, as many as it lists."""
+        """Locations listed in the message."""
         number = r"([-+]?[0-9.]+(?:e[-+]?[0-9]+)?)"
         found = re.finditer(rf"^\s*at \({number}, {number}, {number}\)(?: on ([^:]*))?: (.*)$", self.message, re.MULTILINE)
         return [Place((float(m[1]), float(m[2]), float(m[3])), m[5] if m[4] is None else f"{m[4]}: {m[5]}") for m in found]
 
     @property
     def advice(self) -> str | None:
-        """What the program says to try."""
+        """Remedy in the message; None if there is none."""
         found = re.search(r"^\s*try: (.*)$", self.message, re.MULTILINE)
         return found[1] if found else None
 
@@ -85,7 +85,7 @@ class UsageError(SternaError):
 
 
 class InvalidMesh(SternaError):
-    """Exit status 3 of a command that makes a mesh: it was written, but is INVALID."""
+    """Exit status 3 of a command that makes a mesh: the mesh was written, but is INVALID."""
 
 
 class Stopped(SternaError):
@@ -93,11 +93,11 @@ class Stopped(SternaError):
 
 
 class TimedOut(SternaError):
-    """`timeout` seconds were over; the program was stopped."""
+    """The program was stopped after `timeout` seconds."""
 
 
 class CaseFailure(SternaError):
-    """`series(..., must_succeed=True)`: not all cases are VALID. `cases` are those that are not."""
+    """Raised by `series(..., must_succeed=True)` if not all cases are VALID. `cases`: the cases that are not VALID."""
 
     def __init__(self, message: str, cases: list[dict]):
         super().__init__(message)
@@ -105,13 +105,13 @@ class CaseFailure(SternaError):
 
 
 class ProgramNotFound(SternaError):
-    """There is no sterna where it was looked for."""
+    """The program sterna was not found."""
 
 
 def find_program(program: Path | None = None) -> str:
-    """The program to run: `program` where given, else the environment's STERNA, else sterna in PATH, else ../../../bin/sterna of an installed sterna.py.
+    """Returns the program to run: `program` if given, else the environment's STERNA, else sterna in PATH, else ../../../bin/sterna of an installed sterna.py.
 
-    Raises ProgramNotFound, which says where it was looked for.
+    Raises ProgramNotFound with the searched locations.
     """
     looked = []
     for source, name in (("the argument", program), ("the environment's STERNA", os.environ.get("STERNA"))):
@@ -119,13 +119,13 @@ def find_program(program: Path | None = None) -> str:
             found = shutil.which(os.fspath(name))
             if found:
                 return os.path.abspath(found)  # a relative one has to be found from other folders, too
-            raise ProgramNotFound(f"{source} says {os.fspath(name)!r}, which is no program that can be run")
+            raise ProgramNotFound(f"{source} says {os.fspath(name)!r}, which is not an executable program")
         looked.append(source)
     installed = pathlib.Path(__file__).resolve().parent.parent.parent.parent / "bin" / "sterna"
     found = shutil.which("sterna") or (str(installed) if os.access(installed, os.X_OK) else None)
     if found:
         return os.path.abspath(found)
-    raise ProgramNotFound(f"no program sterna: neither {' nor '.join(looked)} name one, nor is one in PATH or {installed}; Sterna(program) or STERNA=/path/to/sterna")
+    raise ProgramNotFound(f"the program sterna was not found: neither {' nor '.join(looked)} is set, and it is not in PATH or {installed}; use Sterna(program) or STERNA=/path/to/sterna")
 
 
 def _value_text(value: object) -> str:
@@ -137,7 +137,7 @@ def _value_text(value: object) -> str:
         return repr(value)  # all digits
     if isinstance(value, (str, int)):
         return str(value)
-    raise TypeError(f"{value!r} of type {type(value).__name__} is no value of an option: numbers, text, paths, True and False are, and lists of them")
+    raise TypeError(f"{value!r} of type {type(value).__name__} is not a value of an option; expected a number, a string, a path, True, False or a list of these")
 
 
 def _list_of(value: object) -> list:
@@ -145,7 +145,7 @@ def _list_of(value: object) -> list:
 
 
 def _paths(value: object, what: str) -> list:
-    """One path or several, as a list; anything else is a TypeError here and not a file that the program does not find."""
+    """Returns one path or several as a list; any other value is a TypeError here, instead of a missing file in the program."""
     paths = _list_of(value)
     if isinstance(value, (bytes, collections.abc.Mapping)) or not all(isinstance(path, (str, os.PathLike)) for path in paths):
         raise TypeError(f"{what}: expected a path or a list of paths, not {value!r}")
@@ -159,7 +159,7 @@ def _one_path(value: object, what: str) -> Path:
 
 
 def _script_arguments(arguments: object) -> list[str]:
-    """NAME=VALUE of a dictionary, or of a list of such texts or of pairs."""
+    """Returns NAME=VALUE strings from a dictionary, or from a list of such strings or pairs."""
     if arguments is None:
         return []
     if isinstance(arguments, collections.abc.Mapping):
@@ -178,7 +178,7 @@ def _script_arguments(arguments: object) -> list[str]:
 
 
 def _option_arguments(options: collections.abc.Mapping[str, object]) -> list[str]:
-    """--name=value of each; None is left out. `set` and `patch` take dictionaries: set={"envelope.layers": 24}, patch={"tunnel*": {"layers": 20}}."""
+    """Returns --name=value for each option; None is omitted. `set` and `patch` take dictionaries: set={"envelope.layers": 24}, patch={"tunnel*": {"layers": 20}}."""
     made = []
     for name, value in options.items():
         if value is None:
@@ -188,16 +188,16 @@ def _option_arguments(options: collections.abc.Mapping[str, object]) -> list[str
         elif name == "patch" and isinstance(value, collections.abc.Mapping):
             for patch, rules in value.items():
                 if not isinstance(rules, collections.abc.Mapping):
-                    raise TypeError(f"patch {patch!r}: expected a dictionary of its options, e.g. {{'layers': 20}}, not {rules!r}")
+                    raise TypeError(f"patch {patch!r}: expected a dictionary of options, e.g. {{'layers': 20}}, not {rules!r}")
             value = [f"{patch}:" + ",".join(f"{option}={_value_text(entry)}" for option, entry in rules.items()) for patch, rules in value.items()]
         elif isinstance(value, collections.abc.Mapping):
-            raise TypeError(f"option {name} takes no dictionary; set and patch do")
+            raise TypeError(f"option {name} takes no dictionary; only set and patch do")
         made += [f"--{name.replace('_', '-')}={_value_text(entry)}" for entry in _list_of(value)]
     return made
 
 
 class _Messages:
-    """Takes apart what arrives on the program's stderr: lines of log, and the line of progress that is written over and over."""
+    """Parses stderr of the program: lines of the log, and the progress line, which is overwritten repeatedly."""
 
     def __init__(self, on_progress: collections.abc.Callable[[Progress], None] | None, on_log: collections.abc.Callable[[str], None] | None):
         self.lines: list[str] = []
@@ -225,7 +225,7 @@ class _Messages:
                 self._on_log(line)
 
     def _blocks(self, prefix: str) -> list[str]:
-        """Messages that begin with the prefix, with their indented lines."""
+        """Returns the messages that begin with the prefix, with their indented lines."""
         blocks: list[str] = []
         is_inside = False
         for line in self.lines:
@@ -268,7 +268,7 @@ def _stop(process: subprocess.Popen) -> None:
 
 
 def _execute(command: list[str], folder: Path | None, messages: _Messages, wants_progress: bool, timeout: float | None) -> tuple[int, str]:
-    """Runs the command; gives exit status and stdout. stderr goes to messages, over a pseudo terminal where progress is wanted, since it is written to terminals alone."""
+    """Runs the command; returns exit status and stdout. stderr goes to messages; for progress through a pseudo terminal, because progress is written to terminals only."""
     reader, writer = pty.openpty() if wants_progress else os.pipe()
     try:
         process = subprocess.Popen(command, cwd=folder, stdin=subprocess.DEVNULL, stdout=subprocess.PIPE, stderr=writer)
@@ -320,11 +320,11 @@ def _load(path: Path) -> dict:
 
 
 class Sterna:
-    """The program, and how it is run.
+    """The program with its settings.
 
-    program: path or name; None: see find_program. threads: of its work, 0 or None: all of the machine; results do not depend on it. folder: where it runs, relative names of files
-    start there; None: the current folder. progress: called with a Progress at every step, from another thread. log: called with every line of the program's log. timeout: seconds,
-    after which TimedOut is raised. Without progress and log it is quiet: warnings are in the results (key "warnings"), errors in the exceptions.
+    program: path or name; None: see find_program. threads: number of threads, 0 or None: all of the machine; results do not depend on it. folder: working folder, relative file names
+    start there; None: the current folder. progress: called with a Progress at every step, from another thread. log: called with every line of the program's log. timeout: seconds
+    after which TimedOut is raised. Without progress and log nothing is printed: warnings are in the results (key "warnings"), errors in the exceptions.
     """
 
     def __init__(self, program: Path | None = None, *, threads: int | None = None, folder: Path | None = None, progress: collections.abc.Callable[[Progress], None] | None = None,
@@ -357,7 +357,7 @@ class Sterna:
         return pathlib.Path(self.folder or ".", name)
 
     def _made(self, verb: str, inputs: Paths, outputs: Paths, options: dict) -> dict:
-        """Runs a verb that writes files; gives the manifest of the first with "files", "text" and "warnings"."""
+        """Runs a command that writes files; returns the manifest of the first file with "files", "text" and "warnings"."""
         outputs = _paths(outputs, "outputs")
         if not outputs:
             raise TypeError("outputs: expected at least one path")
@@ -370,87 +370,87 @@ class Sterna:
         messages = _Messages(None, None)
         status, output = _execute(command, self.folder, messages, False, self.timeout)
         if status or not output.startswith("sterna "):
-            raise SternaError(f"{self.program} is no sterna: --version says {(output or messages.error).strip()!r}", command, status, output)
+            raise SternaError(f"{self.program} is not sterna: --version prints {(output or messages.error).strip()!r}", command, status, output)
         return output.split()[1]
 
     def run(self, script: Path, arguments: Arguments | None = None, **options: object) -> dict:
-        """`sterna run script.lua name=value ...`, with arguments={"name": value} or ["name=value"]: what the script printed ("text") and the warnings. An INVALID mesh, too, is an exception (InvalidMesh)."""
+        """`sterna run script.lua name=value ...`, with arguments={"name": value} or ["name=value"]. Returns the output of the script ("text") and the warnings. An INVALID mesh is an exception (InvalidMesh)."""
         done = self._must("run", [_one_path(script, "script"), *_script_arguments(arguments)], options)
         return {"text": done.output, "warnings": done.warnings}
 
     def check_script(self, script: Path, arguments: Arguments | None = None, **options: object) -> list[str]:
-        """The mistakes of a script, found without meshing; an empty list where there is none."""
+        """Returns the mistakes of a script, found without meshing; an empty list if there are none."""
         done = self._do("check-script", [_one_path(script, "script"), *_script_arguments(arguments)], options)
         if done.error and done.status != 2:
             raise done.error
         return re.split(r"\n(?=\S)", done.error.message) if done.error else []
 
     def mesh(self, surfaces: Paths, outputs: Paths, **options: object) -> dict:
-        """`sterna mesh`: prism layers and tetrahedra around surfaces or models. Gives the manifest of the first output (docs/check_json.md has its measures): "verdict", "mesh" with
-        numbers of nodes and cells, "layer", "quality", "patches", "options"; and "files", "text", "warnings". Raises InvalidMesh where the mesh is INVALID."""
+        """`sterna mesh`: prism layers and tetrahedra around surfaces or models. Returns the manifest of the first output (docs/check_json.md has its measures): "verdict", "mesh" with
+        numbers of nodes and cells, "layer", "quality", "patches", "options"; and "files", "text", "warnings". Raises InvalidMesh if the mesh is INVALID."""
         return self._made("mesh", surfaces, outputs, options)
 
     def surface(self, models: Paths, outputs: Paths, **options: object) -> dict:
-        """`sterna surface`: triangles on the faces of a model (STEP, IGES, BREP, sumo, CPACS). Gives the surface's manifest: "mesh", "patches", "quality", "options"; and "files",
+        """`sterna surface`: triangles on the faces of a model (STEP, IGES, BREP, sumo, CPACS). Returns the surface's manifest: "mesh", "patches", "quality", "options"; and "files",
         "text", "warnings"."""
         return self._made("surface", models, outputs, options)
 
     def union(self, parts: Paths, outputs: Paths, **options: object) -> dict:
-        """`sterna union`: closed parts that stick in each other become one wall. Gives "files", "text", "warnings"."""
+        """`sterna union`: unites closed parts that intersect to one wall. Returns "files", "text", "warnings"."""
         outputs = _paths(outputs, "outputs")
         done = self._must("union", _paths(parts, "parts"), {"output": outputs, **options})
         return {"files": [str(self._path(name)) for name in outputs], "text": done.output, "warnings": done.warnings}
 
     def convert(self, source: Path, output: Path, **options: object) -> str:
-        """`sterna convert source output`: a surface, a volume mesh or a model in another format; gives the output's path."""
+        """`sterna convert source output`: a surface, a volume mesh or a model in another format; returns the output's path."""
         self._must("convert", [_one_path(source, "source"), _one_path(output, "output")], options)
         return str(self._path(output))
 
     def check(self, mesh: Path, **options: object) -> dict:
-        """`sterna check --json`: the proof and the measures of a volume mesh (docs/check_json.md). An INVALID mesh is an answer, not an exception: see "verdict"."""
+        """`sterna check --json`: the proof and the measures of a volume mesh (docs/check_json.md). An INVALID mesh is a result, not an exception: see "verdict"."""
         done = self._do("check", [_one_path(mesh, "mesh")], {"json": True, **options})
         if done.error and done.status != 3:
             raise done.error
         return {**json.loads(done.output), "warnings": done.warnings}
 
     def check_family(self, meshes: Paths, **options: object) -> dict:
-        """`sterna check-family --json`: whether meshes, from coarse to fine, are members of one family. A rule that FAILs is an answer."""
+        """`sterna check-family --json`: whether meshes, from coarse to fine, are members of one family. A rule that FAILs is a result, not an exception."""
         done = self._do("check-family", _paths(meshes, "meshes"), {"json": True, **options})
         if done.error and done.status != 3:
             raise done.error
         return {**json.loads(done.output), "warnings": done.warnings}
 
     def inspect(self, surfaces: Paths, **options: object) -> dict:
-        """`sterna inspect --json`: what meshing will make of a surface (docs/inspect.md). Findings that are errors are an answer, not an exception: see "errors"."""
+        """`sterna inspect --json`: predicts how volume_mesh will treat a surface (docs/inspect.md). Findings that are errors are a result, not an exception: see "errors"."""
         done = self._do("inspect", _paths(surfaces, "surfaces"), {"json": True, **options})
         if done.error and not (done.status == 1 and done.output.lstrip().startswith("{")):
             raise done.error
         return {**json.loads(done.output), "warnings": done.warnings}
 
     def info(self, file: Path, **options: object) -> dict:
-        """`sterna info --json`: what a file holds: "kind" (surface, volume mesh, model), "box", "patches" with name, kind and area; of volume meshes "nodes" and "cells"; of
-        models "components", "solids", "wings" (span, areas, mean chords), "total". And "manifest": what is known of how sterna made it, None where there is none."""
+        """`sterna info --json`: content of a file: "kind" (surface, volume mesh, model), "box", "patches" with name, kind and area; for volume meshes "nodes" and "cells"; for
+        models "components", "solids", "wings" (span, areas, mean chords), "total". And "manifest": the manifest of sterna beside the file, or None."""
         done = self._must("info", [_one_path(file, "file")], {"json": True, **options})
         manifest = self._path(f"{os.fspath(file)}.json")
         return {**json.loads(done.output), "manifest": _load(manifest) if manifest.is_file() else None, "warnings": done.warnings}
 
     def draw(self, mesh: Path, picture: Path, **options: object) -> str:
-        """`sterna draw mesh -o picture.png`; gives the picture's path."""
+        """`sterna draw mesh -o picture.png`; returns the picture's path."""
         self._must("draw", [_one_path(mesh, "mesh")], {"output": _one_path(picture, "picture"), **options})
         return str(self._path(picture))
 
     def report(self, mesh: Path, page: Path, **options: object) -> str:
-        """`sterna report mesh -o page.html`; gives the page's path. Of an INVALID mesh, too, whose page shows where."""
+        """`sterna report mesh -o page.html`; returns the page's path. Also works for an INVALID mesh; the page shows the invalid locations."""
         done = self._do("report", [_one_path(mesh, "mesh")], {"output": _one_path(page, "page"), **options})
         if done.error and done.status != 3:
             raise done.error
         return str(self._path(page))
 
     def series(self, script: Path, name: str, arguments: Arguments | None = None, *, must_succeed: bool = False, **options: object) -> dict:
-        """`sterna run` of a script with `series{ "NAME", ... }` (docs/series.md): gives NAME/series.json, with one entry per case in "cases".
+        """`sterna run` of a script with `series{ "NAME", ... }` (docs/series.md): returns NAME/series.json, with one entry per case in "cases".
 
-        Cases that failed, were killed or are INVALID are an answer; with must_succeed they raise CaseFailure. A script that goes wrong elsewhere raises its own error. What an
-        earlier run has done is kept, so that calling it again goes on where it was stopped.
+        Cases that failed, were killed or are INVALID are results; with must_succeed they raise CaseFailure. Other errors of the script raise SternaError. Complete cases of an
+        earlier run are kept, so a second call continues an interrupted series.
         """
         table = self._path(_one_path(name, "name")) / "series.json"
         begin = time.time_ns()
@@ -468,11 +468,11 @@ class Sterna:
         return {**result, "text": done.output, "warnings": done.warnings}
 
     def read_series(self, folder: Path) -> dict:
-        """The table of a series that was run: FOLDER/series.json."""
+        """Returns the table of a series that was run: FOLDER/series.json."""
         return _load(self._path(folder) / "series.json")
 
     def read_manifest(self, file: Path) -> dict:
-        """FILE.json, which sterna writes beside each file it makes: program, inputs with hashes, options, patches, counts, quality."""
+        """Returns FILE.json, which sterna writes beside each output file: program, inputs with hashes, options, patches, counts, quality."""
         return _load(self._path(f"{os.fspath(file)}.json"))
 
 
@@ -483,7 +483,7 @@ def _function(name: str):
         return getattr(sterna or Sterna(), name)(*arguments, **options)
 
     call.__name__ = call.__qualname__ = name
-    call.__doc__ = f"{method.__doc__}\n\nOf Sterna(), or of `sterna` where given."
+    call.__doc__ = f"{method.__doc__}\n\nRuns Sterna(), or `sterna` if given."
     return call
 
 

@@ -29,8 +29,8 @@ std::pair<std::string, bool> page_of_file(const InputPath& input, const ReportOp
   if (is_model_file(input.path))
     throw Error({.code = ErrorCode::bad_argument,
                  .attempted = "a report of " + input.name,
-                 .problem = "it is a model, which has no mesh yet",
-                 .hint = "`sterna surface " + input.name + " -o wall.vtu` meshes its faces, `sterna mesh` the space around them"});
+                 .problem = "the file is a model, which has no mesh yet",
+                 .hint = "`sterna surface " + input.name + " -o wall.vtu` meshes the faces of the model, `sterna mesh` the space around it"});
   if (io::format_of(input.path).read_volume) {
     const MeshValue mesh = read_mesh(input, reading);
     if (count_cells(mesh.mesh).total() > 0) {
@@ -41,9 +41,9 @@ std::pair<std::string, bool> page_of_file(const InputPath& input, const ReportOp
   if (limits)
     throw Error({.code = ErrorCode::bad_argument,
                  .attempted = "a report of " + input.name,
-                 .problem = "--gate has no effect: the file holds a surface, and gates are of volume meshes"});
+                 .problem = "--gate has no effect: the file is a surface, and gates apply to volume meshes"});
   if (!cuts.empty())
-    throw Error({.code = ErrorCode::bad_argument, .attempted = "a report of " + input.name, .problem = "it is a surface, which has no cells to cut"});
+    throw Error({.code = ErrorCode::bad_argument, .attempted = "a report of " + input.name, .problem = "the file is a surface, which has no cells to cut"});
   surfmesh::StitchOptions stitching;
   stitching.allow_open = true;
   const std::array files = {input};
@@ -51,24 +51,25 @@ std::pair<std::string, bool> page_of_file(const InputPath& input, const ReportOp
 }
 
 CLI::App* add_report_arguments(CLI::App& app, ReportCommand& report) {
-  CLI::App* command = app.add_subcommand("report", "a page (HTML, one file) that shows a mesh: view, cuts, worst places, histograms, gates, coverage, options");
-  command->add_option("mesh", report.input, "volume mesh or surface file. `sterna formats` lists what is read")->required();
+  CLI::App* command =
+      app.add_subcommand("report", "write a page (one HTML file) that shows a mesh: view, cuts, worst locations, histograms, gates, coverage, options");
+  command->add_option("mesh", report.input, "volume mesh or surface file. `sterna formats` lists the formats")->required();
   command->add_option("-o,--output", report.output, "page.html")->required();
   command
       ->add_option("--cut", report.cuts,
-                   "a place by name (\"leading edge\", \"tip\" ...), \"x=1.2\", or \"point=0,0,0 normal=0,1,0\", shown before the automatic ones; may be given "
-                   "several times")
+                   "cut at a location by name (\"leading edge\", \"tip\" ...), \"x=1.2\", or \"point=0,0,0 normal=0,1,0\", shown before the automatic cuts; "
+                   "may be given several times")
       ->type_name("CUT")
       ->allow_extra_args(false)
       ->take_all();
-  command->add_option("--gate", report.gates, "limits of a QUALITY gate instead of the usual ones, as of `sterna check`; may be given several times")
+  command->add_option("--gate", report.gates, "limits of a QUALITY gate, instead of the defaults, as for `sterna check`; may be given several times")
       ->type_name("MEASURE:LIMITS")
       ->allow_extra_args(false)
       ->take_all();
   ReportOptions options;
   add_schema_options(*command, sterna::options_of(options), report.options);
   command->footer(
-      "sterna report mesh.cgns -o mesh.html --cut \"leading edge\" --cut x=1.2. Exit status 3 when the mesh is INVALID; the page is written all the same.");
+      "sterna report mesh.cgns -o mesh.html --cut \"leading edge\" --cut x=1.2. Exit status 3 if the mesh is INVALID; the page is written in any case.");
   return command;
 }
 
@@ -76,7 +77,7 @@ void require_page_output(const std::filesystem::path& path) {
   if (path.extension() != ".html" && path.extension() != ".htm")
     throw Error({.code = ErrorCode::unsupported_format,
                  .attempted = "writing the report " + path.string(),
-                 .problem = "a report is a page of HTML",
+                 .problem = "a report is an HTML page",
                  .hint = "give the file a name that ends in .html"});
 }
 

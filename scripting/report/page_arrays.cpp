@@ -51,7 +51,7 @@ std::string page_text(const std::string& json, const PageArrays& arrays) {
     throw Error({.code = ErrorCode::unsupported_format,
                  .attempted = "making a report page",
                  .problem = "this sterna was built without the page: npm was not found, or the npm registry could not be reached",
-                 .hint = "install npm, then run tools/build again; everything else of a report is in `sterna check --json`"});
+                 .hint = "install npm, then run tools/build again; `sterna check --json` contains the other data of a report"});
   const auto fill = [&](std::string_view place, const std::string& content) {
     const std::size_t at = text.find(place);
     if (at == std::string::npos)

@@ -91,7 +91,7 @@ PageMaker::PageMaker(std::span<const Point> points, const PageTriangles& triangl
   if (patches.size() > k_most_patches)
     throw Error({.code = ErrorCode::overflow,
                  .attempted = "making a report page",
-                 .problem = std::to_string(patches.size()) + " patches; a page tells " + std::to_string(k_most_patches) + " apart",
+                 .problem = std::to_string(patches.size()) + " patches; a page can distinguish " + std::to_string(k_most_patches) + " patches",
                  .hint = "merge patches by their names"});
   const auto is_of_body = [&](std::size_t patch) { return triangles.is_of_body.empty() || triangles.is_of_body[patch] != 0; };
   Box bodies, all;
@@ -209,8 +209,8 @@ std::string page_cut_json(const CutPlace& place, const MeshCut& cut, std::size_t
   GateLimits dihedral = info_of(Measure::min_dihedral).limits;
   for (double* limit : {&dihedral.hard, &dihedral.target, &dihedral.usual}) *limit *= k_degrees;
   json["fields"] = {Json::parse(page_field_json("shape", "shape of the cell (1 = ideal)", "", false, true, k_no_limits, shape, arrays)),
-                    Json::parse(page_field_json("min_dihedral", "smallest dihedral of the tet", "deg", false, true, dihedral, quality, arrays)),
-                    Json::parse(page_field_json("layer", "layer from the wall", "", false, false, k_no_limits, layer, arrays)),
+                    Json::parse(page_field_json("min_dihedral", "smallest dihedral angle of the tetrahedron", "deg", false, true, dihedral, quality, arrays)),
+                    Json::parse(page_field_json("layer", "number of the layer, from the wall", "", false, false, k_no_limits, layer, arrays)),
                     Json::parse(page_field_json("volume", "volume", "m^3", true, false, k_no_limits, volume, arrays))};
   return json.dump(-1, ' ', false, Json::error_handler_t::replace);
 }

@@ -127,8 +127,8 @@ std::string small_page(const ReportOptions& options, const RunContext& context, 
     std::string page = make(most(options.max_triangles), most(options.max_polygons));
     if (page.size() <= k_most_page_bytes) return page;
     if (share < k_least)
-      throw Error({.code = ErrorCode::overflow, .attempted = "making a report page", .problem = too_large(page.size()), .hint = "name fewer cuts"});
-    context.debug(too_large(page.size()) + ": it is thinned");
+      throw Error({.code = ErrorCode::overflow, .attempted = "making a report page", .problem = too_large(page.size()), .hint = "give fewer cuts"});
+    context.debug(too_large(page.size()) + ": the page is thinned");
   }
 }
 
@@ -146,8 +146,8 @@ std::string report_html(const MeshValue& mesh, const ReportOptions& options, con
   if (!report.is_complete)
     throw Error({.code = ErrorCode::mesh_invalid,
                  .attempted = "making a report page",
-                 .problem = "indices or points of the mesh are unusable, so that nothing of it can be shown",
-                 .hint = "`sterna check` lists them"});
+                 .problem = "indices or points of the mesh are invalid, so the mesh cannot be shown",
+                 .hint = "`sterna check` lists the faults"});
   const std::vector<SurfaceField> fields = surface_fields(mesh.mesh, context);
   const PageTriangles triangles = page_triangles(mesh.mesh);
   const PageMaker maker(mesh.mesh.points.raw(), triangles, mesh.mesh.patches, fields);

@@ -73,13 +73,13 @@ ScriptValue make_report(const ScriptCall& call) {
 
 std::string report_help() {
   ReportOptions options;
-  return "cuts = { \"leading edge\", { x = 1.2 }, { point = {0, 0, 0}, normal = {0, 1, 0} } }: planes that are shown before the automatic ones\n" +
+  return "cuts = { \"leading edge\", { x = 1.2 }, { point = {0, 0, 0}, normal = {0, 1, 0} } }: planes that are shown before the automatic cuts\n" +
          options_help(sterna::options_of(options));
 }
 
 constexpr std::array<ScriptVerb, 1> k_report_verbs = {{{"report", k_report_usage,
-                                                        "Writes a page (HTML, one file, opens without a network) that shows a mesh: view, cuts, worst places, "
-                                                        "histograms, gates, coverage, times, options (docs/report.md).",
+                                                        "Writes a page (one HTML file, opens without a network) that shows a mesh: view, cuts, worst "
+                                                        "locations, histograms, gates, coverage, times, options (docs/report.md).",
                                                         make_report, report_help, true, "nothing"}}};
 
 }  // namespace

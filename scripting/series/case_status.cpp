@@ -113,7 +113,7 @@ CaseStatus read_status(const fs::path& folder, const RunContext& context) {
   try {
     const Json json = Json::parse(text);
     if (json.at("schema") == k_schema) return status_of(json);
-    context.warn((folder / k_status_file).string() + " is of another version: the case runs again");
+    context.warn((folder / k_status_file).string() + " was written by another version: the case runs again");
   } catch (const nlohmann::json::exception& error) {
     context.warn((folder / k_status_file).string() + " is damaged (" + error.what() + "): the case runs again");
   }

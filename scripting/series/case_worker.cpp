@@ -131,7 +131,7 @@ void run_case(const ScriptCall& call, const SeriesPlan& plan, const SeriesCase& 
   CaseStatus status{.state = CaseState::running, .key = case_key(plan, c, session), .process = getpid(), .host = host_name()};
   const CaseStatus before = read_status(folder, session.context);
   if (is_current(before, folder, status.key)) {
-    session.context.warn("case " + c.name + " is over already: this is a job of an earlier run that a queue has started once more");
+    session.context.warn("case " + c.name + " is complete already: a queue has restarted this job of an earlier run");
     series.is_case_over = true;
     series.is_case_done = before.state == CaseState::done;
     return;

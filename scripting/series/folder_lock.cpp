@@ -63,7 +63,8 @@ FolderLock::FolderLock(const std::filesystem::path& folder, const RunContext& co
     if (errno != EWOULDBLOCK && errno != EINTR) fail(std::string("locking: ") + std::strerror(errno), "use a folder on a file system with locks");
     const Holder holder = holder_of(file);
     if (!holder.is_dead() || std::chrono::steady_clock::now() - begin > k_patience)
-      fail("another run is at work in it: process " + std::to_string(holder.pid) + " on " + holder.host, "wait for its end, or give this series another name");
+      fail("another run uses this folder: process " + std::to_string(holder.pid) + " on " + holder.host,
+           "wait until that run ends, or give this series another name");
     std::this_thread::sleep_for(k_lock_pause);
     context.check_stop();
   }

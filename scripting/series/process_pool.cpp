@@ -57,14 +57,14 @@ CaseStatus death_of(const Running& running, int wait_status) {
   if (WIFSIGNALED(wait_status)) {
     status.message = signal_text(WTERMSIG(wait_status));
     if (WTERMSIG(wait_status) == SIGKILL && memory_kills() > running.kills_before)
-      status.message += "; the system ran out of memory meanwhile: use fewer tasks";
+      status.message += "; the system ran out of memory during the run: use fewer tasks";
     return status;
   }
   status.state = CaseState::failed;
   status.code = to_string(ErrorCode::script_failed);
   status.is_of_machine = true;  // the worker could not even write the status of the case
   const std::string log = end_of_log(running.task->folder);
-  status.message = log.empty() ? "the worker ended without a word, status " + std::to_string(WEXITSTATUS(wait_status)) : log;
+  status.message = log.empty() ? "the worker ended without a message, status " + std::to_string(WEXITSTATUS(wait_status)) : log;
   return status;
 }
 
@@ -107,7 +107,7 @@ CaseStatus settle(const CaseTask& task, const CaseStatus& otherwise, const RunCo
   // Build and script are part of the key, so this worker belonged to another build or script.
   if (status.is_final() && !status.key.empty() && !status.key.ends_with(k_of_earlier_run)) {
     settled.state = CaseState::killed;
-    settled.message = "another build of sterna, or the script as it was changed meanwhile, worked on it: run the series again";
+    settled.message = "the case was run by another build of sterna, or with a script that was changed during the run: run the series again";
   }
   settled.found = status.found;
   write_status(settled, task.folder);

@@ -31,12 +31,12 @@ bool is_list(const ScriptTable& table) { return table.fields.empty() && table.ot
 
 void require_parameters(const ScriptTable& table) {
   if (!table.items.empty() || !table.other_keys.empty()) refuse("every parameter of a case needs a name");
-  if (table.fields.empty()) refuse("a case without parameters");
+  if (table.fields.empty()) refuse("a case has no parameters");
   for (const auto& [name, value] : table.fields) {
     if (!is_plain(value))
       refuse(name + ": " + std::string(type_text(value)) + " cannot be a parameter",
-             "parameters are numbers, texts, true or false, and tables of them: make objects inside case = function(p)");
-    if (name == "index") refuse("index: p.index is the number of the case");
+             "parameters are numbers, strings, true or false, and tables of these: make objects inside case = function(p)");
+    if (name == "index") refuse("index: this name is reserved, p.index is the number of the case");
   }
 }
 
@@ -69,7 +69,7 @@ Axis axis_of_values(const std::string& name, const ScriptValue& value) {
 
 std::vector<Axis> axes_of(const ScriptTable& over) {
   std::vector<Axis> axes;
-  if (!over.other_keys.empty()) refuse("key " + over.other_keys.front() + ": keys are names");
+  if (!over.other_keys.empty()) refuse("key " + over.other_keys.front() + ": keys must be names");
   const bool is_of_lists = std::any_of(over.items.begin(), over.items.end(), [](const ScriptValue& item) {
     const auto* table = std::get_if<TableHandle>(&item);
     return table && is_list(**table);
@@ -78,14 +78,14 @@ std::vector<Axis> axes_of(const ScriptTable& over) {
     for (const ScriptValue& item : over.items) {
       const auto* table = std::get_if<TableHandle>(&item);
       if (!table || !is_list(**table))
-        refuse("lists of cases and single cases are mixed", "over = { zip{ ... }, beta = {0, 5} }  or  over = { {alpha = 0}, {alpha = 4} }");
+        refuse("lists of cases and single cases cannot be mixed", "over = { zip{ ... }, beta = {0, 5} }  or  over = { {alpha = 0}, {alpha = 4} }");
       axes.push_back(axis_of_list(**table));
     }
   } else if (!over.items.empty()) {
     axes.push_back(axis_of_list(over));
   }
   for (const auto& [name, value] : over.fields) axes.push_back(axis_of_values(name, value));
-  if (axes.empty()) refuse("there is no case");
+  if (axes.empty()) refuse("there are no cases");
   return axes;
 }
 
@@ -121,7 +121,7 @@ std::string short_hash(const ScriptTable& parameters) {
 std::string name_of(const ScriptTable& parameters) {
   if (const auto given = parameters.fields.find("name"); given != parameters.fields.end()) {
     const auto* name = std::get_if<std::string>(&given->second);
-    if (!name || !is_safe_name(*name) || name->size() > k_max_name) refuse("name: a case is called by letters, digits and . + - _ = (at most 100)");
+    if (!name || !is_safe_name(*name) || name->size() > k_max_name) refuse("name: names of cases have letters, digits and . + - _ = only (at most 100)");
     return *name;
   }
   std::string name;
@@ -164,7 +164,7 @@ std::vector<SeriesCase> cases_of(const ScriptTable& over) {
   for (ScriptTable& table : tables) {
     SeriesCase one{.index = cases.size() + 1, .name = name_of(table), .parameters = std::move(table)};
     const auto [same, is_new] = known.emplace(one.name, one.index);
-    if (!is_new) refuse("cases " + std::to_string(same->second) + " and " + std::to_string(one.index) + " are both \"" + one.name + "\"");
+    if (!is_new) refuse("cases " + std::to_string(same->second) + " and " + std::to_string(one.index) + " have the same name \"" + one.name + "\"");
     cases.push_back(std::move(one));
   }
   return cases;
@@ -174,8 +174,7 @@ ScriptValue zipped(const ScriptTable& lists) {
   auto result = std::make_shared<ScriptTable>();
   std::string first;
   std::size_t n = 0;
-  if (!lists.items.empty() || !lists.other_keys.empty() || lists.fields.empty())
-    refuse("zip takes lists with names", "zip{ alpha = {0, 4}, bend = {0, 0.02} }");
+  if (!lists.items.empty() || !lists.other_keys.empty() || lists.fields.empty()) refuse("zip takes named lists", "zip{ alpha = {0, 4}, bend = {0, 0.02} }");
   for (const auto& [name, value] : lists.fields) {
     const auto* list = std::get_if<TableHandle>(&value);
     if (!list || !is_list(**list)) refuse(name + ": expected a list, not " + std::string(type_text(value)));
@@ -209,8 +208,8 @@ ScriptValue range_of(const ScriptValue& first, const ScriptValue& last, const Sc
   if (n < 0.0)
     throw Error({.code = ErrorCode::bad_argument,
                  .attempted = "range",
-                 .problem = "from " + number_text(from) + " to " + number_text(to) + " in steps of " + number_text(by) + " there is no value",
-                 .hint = "a step towards the end: range(-4, 12, 2)"});
+                 .problem = "from " + number_text(from) + " to " + number_text(to) + " in steps of " + number_text(by) + " there are no values",
+                 .hint = "the step must lead from the first to the last value: range(-4, 12, 2)"});
   if (n >= static_cast<double>(k_max_cases))
     throw Error({.code = ErrorCode::bad_argument, .attempted = "range", .problem = "more than " + std::to_string(k_max_cases) + " values"});
   const bool is_whole = std::holds_alternative<std::int64_t>(first) && (!has_step || std::holds_alternative<std::int64_t>(step));

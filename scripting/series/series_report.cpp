@@ -231,7 +231,7 @@ std::string result_json(const SeriesPlan& plan, std::span<const CaseResult> resu
 std::string result_json_of(const std::string& series_json, const std::filesystem::path& file) {
   Json json = Json::parse(series_json, nullptr, false);
   if (!json.is_object())
-    throw Error({.code = ErrorCode::file_malformed, .attempted = "reading " + file.string(), .problem = "it is not the table of a series"});
+    throw Error({.code = ErrorCode::file_malformed, .attempted = "reading " + file.string(), .problem = "the file is not the table of a series"});
   json.erase("measure");
   return json.dump(-1, ' ', false, Json::error_handler_t::replace);
 }

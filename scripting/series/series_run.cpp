@@ -39,7 +39,7 @@ ScriptValue result_of_earlier(const ScriptCall& call, const SeriesPlan& plan) {
   std::ifstream stream(file, std::ios::binary);
   if (!stream)
     throw Error(
-        {.code = ErrorCode::file_not_found, .attempted = call.attempted(), .problem = "the results of this earlier series are not in " + file.string()});
+        {.code = ErrorCode::file_not_found, .attempted = call.attempted(), .problem = "results of this earlier series are missing in " + file.string()});
   return remember(call.session.series, plan, result_json_of({std::istreambuf_iterator<char>(stream), {}}, file));
 }
 
@@ -50,7 +50,7 @@ ScriptValue result_of_earlier(const ScriptCall& call, const SeriesPlan& plan) {
                  .attempted = call.attempted(),
                  .problem = "there is no case " + std::to_string(index) + " among its " + std::to_string(plan.cases.size())});
   run_case(call, plan, plan.cases[index - 1]);
-  throw Error({.code = ErrorCode::cancelled, .attempted = call.attempted(), .problem = "the case is over"});
+  throw Error({.code = ErrorCode::cancelled, .attempted = call.attempted(), .problem = "the case is complete"});
 }
 
 // ---- In the main process -------------------------------------------------------------------------------------------------------------------
@@ -88,8 +88,9 @@ class SeriesRun {
       if (error.info().code != ErrorCode::cancelled) throw;
       const auto n_done = std::count_if(results_.begin(), results_.end(), [](const CaseResult& result) { return result.status.state == CaseState::done; });
       ErrorInfo info = error.info();
-      info.problem = "stopped; " + std::to_string(n_done) + " of " + std::to_string(results_.size()) + " cases are done and kept in " + plan_.folder.string();
-      info.hint = "run the same command to go on";
+      info.problem =
+          "stopped; " + std::to_string(n_done) + " of " + std::to_string(results_.size()) + " cases are complete and stored in " + plan_.folder.string();
+      info.hint = "run the same command to continue";
       throw Error(std::move(info));
     }
   }
@@ -153,7 +154,7 @@ class SeriesRun {
     const bool is_done = status.state == CaseState::done;
     context_.log(is_done ? LogLevel::info : LogLevel::warning, plan_.name + " " + std::to_string(n_over_) + "/" + std::to_string(plan_.cases.size()) + ": " +
                                                                    c.name + ": " + outcome_text(status) +
-                                                                   (is_kept ? ", of an earlier run" : ", " + duration_text(result.seconds)));
+                                                                   (is_kept ? ", from an earlier run" : ", " + duration_text(result.seconds)));
     if (context_.stop_token().stop_requested()) return;  // progress() would throw, and the runner stops the workers more gently
     context_.progress(static_cast<double>(n_over_) / static_cast<double>(plan_.cases.size()));
   }
@@ -180,7 +181,7 @@ class SeriesRun {
 
 ScriptValue run_all(const ScriptCall& call, const SeriesPlan& plan) {
   SeriesSession& series = call.session.series;
-  if (series.settings.program.empty()) reject(call, "starts processes of the program sterna", "run the script with `sterna run`");
+  if (series.settings.program.empty()) reject(call, "series starts processes of the program sterna", "run the script with `sterna run`");
   const StopNotice notice(series.settings.stops_itself);
   SeriesRun run(call, plan);
   const std::vector<CaseResult>& results = run.run_or_tell_what_is_kept();
@@ -225,8 +226,8 @@ ScriptValue check_first(const ScriptCall& call, const SeriesPlan& plan) {
 
 ScriptValue run_series(const ScriptCall& call, const SeriesPlan& plan) {
   const SeriesSession& series = call.session.series;
-  if (series.is_case_running) reject(call, "a case cannot hold a series of its own");
-  if (series.names.contains(plan.name)) reject(call, "there is a series \"" + plan.name + "\" already", "give each its own name");
+  if (series.is_case_running) reject(call, "a case cannot contain another series");
+  if (series.names.contains(plan.name)) reject(call, "there is a series \"" + plan.name + "\" already", "give each series another name");
   if (call.session.check) return check_first(call, plan);
   if (!series.settings.worker) return run_all(call, plan);
   if (series.settings.worker->series != plan.name) return result_of_earlier(call, plan);

@@ -18,9 +18,12 @@ struct Schema<scripting::JobsOptions> {
   using O = scripting::JobsOptions;
   static constexpr std::string_view stage = "jobs";
   static constexpr std::array fields = {
-      Field<O>{.name = "tasks", .member = &O::tasks, .min = 0, .max = 1e6, .help = "cases at a time; 0: one for four cores"},
-      Field<O>{
-          .name = "threads", .member = &O::threads, .min = 0, .max = 1024, .help = "threads of each case; 0: the cores of the machine shared by the tasks"},
+      Field<O>{.name = "tasks", .member = &O::tasks, .min = 0, .max = 1e6, .help = "number of cases that run at the same time; 0: one for every four cores"},
+      Field<O>{.name = "threads",
+               .member = &O::threads,
+               .min = 0,
+               .max = 1024,
+               .help = "threads of each case; 0: the cores of the machine divided by the number of tasks"},
   };
 };
 
@@ -29,10 +32,11 @@ struct Schema<scripting::SlurmOptions> {
   using O = scripting::SlurmOptions;
   static constexpr std::string_view stage = "slurm";
   static constexpr std::array fields = {
-      Field<O>{.name = "partition", .member = &O::partition, .help = "where the jobs run; empty: the cluster's default"},
-      Field<O>{.name = "tasks", .member = &O::tasks, .min = 0, .max = 1e6, .help = "cases at a time; 0: as many as the cluster starts"},
-      Field<O>{.name = "threads", .member = &O::threads, .min = 1, .max = 1024, .help = "threads of each case, and cores that its job asks for"},
-      Field<O>{.name = "time", .member = &O::time, .help = "time limit of a case as sbatch takes it, e.g. 02:00:00; empty: the partition's"},
+      Field<O>{.name = "partition", .member = &O::partition, .help = "partition of the jobs; empty: the cluster's default"},
+      Field<O>{
+          .name = "tasks", .member = &O::tasks, .min = 0, .max = 1e6, .help = "number of cases that run at the same time; 0: as many as the cluster starts"},
+      Field<O>{.name = "threads", .member = &O::threads, .min = 1, .max = 1024, .help = "threads of each case, and cores of its job"},
+      Field<O>{.name = "time", .member = &O::time, .help = "time limit of a case in the format of sbatch, e.g. 02:00:00; empty: limit of the partition"},
   };
 };
 
@@ -41,10 +45,10 @@ struct Schema<scripting::SeriesOptions> {
   using O = scripting::SeriesOptions;
   static constexpr std::string_view stage = "series";
   static constexpr std::array fields = {
-      Field<O>{.name = "retry",
-               .member = &O::retry,
-               .help = "run all cases again that failed in an earlier run; cases that were killed, have changed, or failed because of the machine run again in "
-                       "any case"},
+      Field<O>{
+          .name = "retry",
+          .member = &O::retry,
+          .help = "repeat all cases that failed in an earlier run. Cases that were killed, have changed or failed because of the machine are always repeated"},
   };
 };
 
@@ -82,7 +86,7 @@ ScriptValue jobs_verb(const ScriptCall& call) {
   ScriptTable named = table;
   if (named.items.size() == 1 && named.fields.emplace("tasks", named.items.front()).second) named.items.clear();
   TableReader reader(named, call.attempted());
-  if (!reader.items().empty()) reader.add_problem("takes one number, the cases at a time: " + std::string(k_jobs_usage));
+  if (!reader.items().empty()) reader.add_problem("takes one number, the number of tasks: " + std::string(k_jobs_usage));
   reader.read_options(schema);
   reader.finish();
   return runner_table("jobs", schema, nullptr);
@@ -101,7 +105,7 @@ std::vector<std::string> sbatch_words(const ScriptTable& options, TableReader& r
     }
     const auto* text = std::get_if<std::string>(&value);
     const bool is_number = std::holds_alternative<std::int64_t>(value) || std::holds_alternative<double>(value);
-    if (!text && !is_number) reader.add_problem("options." + name + ": expected a text, a number or true, not " + std::string(type_text(value)));
+    if (!text && !is_number) reader.add_problem("options." + name + ": expected a string, a number or true, not " + std::string(type_text(value)));
     else words.push_back(word + "=" + (text ? *text : to_json(value)));
   }
   return words;
@@ -125,7 +129,8 @@ ScriptValue slurm_verb(const ScriptCall& call) {
   std::vector<std::string> words = {slurm.partition, slurm.time};
   if (extra)
     for (std::string& word : sbatch_words(*extra, reader)) words.push_back(std::move(word));
-  if (std::any_of(words.begin(), words.end(), has_control_characters)) reader.add_problem("options of sbatch are single lines");
+  if (std::any_of(words.begin(), words.end(), has_control_characters))
+    reader.add_problem("options of sbatch must not contain line breaks or control characters");
   reader.finish();
   return runner_table("slurm", schema, extra);
 }
@@ -148,8 +153,9 @@ ScriptValue zip_verb(const ScriptCall& call) {
 
 void read_name(const std::vector<ScriptValue>& items, SeriesPlan& plan, TableReader& reader) {
   const auto* name = items.size() == 1 ? std::get_if<std::string>(&items.front()) : nullptr;
-  if (!name) reader.add_problem("needs its name first: series{ \"polar\", ... }");
-  else if (!is_safe_name(*name)) reader.add_problem("\"" + *name + "\" cannot be its name, which is that of a folder: letters, digits and . + - _ = only");
+  if (!name) reader.add_problem("needs a name as the first entry: series{ \"polar\", ... }");
+  else if (!is_safe_name(*name))
+    reader.add_problem("\"" + *name + "\" is not a valid name: the name of the series and its folder has letters, digits and . + - _ = only");
   else plan.name = *name;
   plan.folder = plan.name;
 }
@@ -169,7 +175,8 @@ void read_over(TableReader& reader, SeriesPlan& plan) {
     return;
   }
   for (const SeriesCase& c : plan.cases)
-    if (std::find(k_reserved.begin(), k_reserved.end(), c.name) != k_reserved.end()) reader.add_problem("over: a case cannot be called \"" + c.name + "\"");
+    if (std::find(k_reserved.begin(), k_reserved.end(), c.name) != k_reserved.end())
+      reader.add_problem("over: the name of a case is reserved: \"" + c.name + "\"");
 }
 
 void read_run(TableReader& reader, SeriesPlan& plan) {
@@ -266,13 +273,15 @@ std::string help_of() {
 
 constexpr std::array<ScriptVerb, 5> k_series_verbs = {{
     {"series", k_series_usage,
-     "Runs a function for many cases, each in a process and a folder of its own; resumes, and ends with one table. Its name first; over: values of parameters, "
-     "by name; case: the function of these; run: jobs{} or slurm{}; reference: parameters of the case that the others start from; cache: false, or a folder.",
+     "Runs a function for many cases, each in a separate process and folder; can be resumed, and ends with a table. First entry: name; over: values of "
+     "parameters, by name; case: function of the parameters; run: jobs{} or slurm{}; reference: parameters of the case from which the others start; cache: "
+     "false, or a folder.",
      series_verb, help_of<SeriesOptions>, true, "table"},
-    {"jobs", k_jobs_usage, "Runs the cases of a series in processes on this machine, so many at a time.", jobs_verb, help_of<JobsOptions>, false, "table"},
+    {"jobs", k_jobs_usage, "Runs the cases of a series in processes on this machine, the given number at the same time.", jobs_verb, help_of<JobsOptions>,
+     false, "table"},
     {"slurm", k_slurm_usage, "Runs the cases of a series as jobs of a Slurm cluster.", slurm_verb, help_of<SlurmOptions>, false, "table"},
-    {"range", k_range_usage, "A list of numbers: first, last, step (1 unless given).", range_verb, nullptr, false, "table"},
-    {"zip", k_zip_usage, "Lists side by side, as a list of cases: the first values together, then the second ones, and so on.", zip_verb, nullptr, false,
+    {"range", k_range_usage, "Returns a list of numbers from the first to the last value with a step, 1 by default.", range_verb, nullptr, false, "table"},
+    {"zip", k_zip_usage, "Combines lists to a list of cases: a case with all first values, a case with all second values, and so on.", zip_verb, nullptr, false,
      "table"},
 }};
 

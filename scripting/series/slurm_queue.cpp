@@ -44,7 +44,7 @@ CommandResult run_or_throw(const std::vector<std::string>& words, const RunConte
     throw Error({.code = ErrorCode::internal,
                  .attempted = "running " + words.front(),
                  .problem = "exit status " + std::to_string(result.status) + ": " + result.errors,
-                 .hint = "ask the cluster's manual for the options that it wants, and give them as slurm{ options = { ... } }"});
+                 .hint = "look up the options that the cluster requires, and give them as slurm{ options = { ... } }"});
   return result;
 }
 
@@ -83,9 +83,9 @@ std::set<std::size_t> jobs_in_queue(const std::string& array, const RunContext& 
   if (result.status != 0) {
     if (result.errors.find("Invalid job id") != std::string::npos) return jobs;  // the job has ended and Slurm has forgotten it
     throw Error({.code = ErrorCode::internal,
-                 .attempted = "asking the queue for job " + array,
+                 .attempted = "querying the queue for job " + array,
                  .problem = "squeue ends with status " + std::to_string(result.status) + ": " + result.errors,
-                 .hint = "the jobs go on: run the script again once squeue --jobs=" + array + " answers"});
+                 .hint = "the jobs continue: run the script again when squeue --jobs=" + array + " works"});
   }
   std::istringstream lines(result.output);
   for (std::string id, state; lines >> id >> state;)
@@ -148,12 +148,12 @@ class SlurmArray {
   std::optional<std::set<std::size_t>> ask_queue() {
     try {
       std::set<std::size_t> jobs = jobs_in_queue(id_, runner_.run);
-      if (n_deaf_ > 0) runner_.run.info("the queue answers again");
+      if (n_deaf_ > 0) runner_.run.info("the queue responds again");
       n_deaf_ = 0;
       return jobs;
     } catch (const Error& error) {
       if (error.info().code == ErrorCode::cancelled || ++n_deaf_ > k_deaf_questions) throw;
-      if (n_deaf_ == 1) runner_.run.warn(error.info().attempted + ": " + error.info().problem + "; the series goes on, and asks again");
+      if (n_deaf_ == 1) runner_.run.warn(error.info().attempted + ": " + error.info().problem + "; the series continues and repeats the query");
       return {};
     }
   }
@@ -169,7 +169,7 @@ class SlurmArray {
         end(i, settle(tasks_[i],
                       {.state = CaseState::killed,
                        .key = tasks_[i].key,
-                       .message = "job " + id_ + "_" + std::to_string(i + 1) + " is gone from the queue and has left no result"},
+                       .message = "job " + id_ + "_" + std::to_string(i + 1) + " is no longer in the queue and left no result"},
                       runner_.run));
     }
   }
@@ -201,14 +201,14 @@ void cancel_left_jobs(const fs::path& folder, const RunContext& context) {
   if (!(std::ifstream(file) >> id)) return;
   const Clock::time_point begin = Clock::now();
   if (!jobs_in_queue(id, context).empty()) {
-    context.warn("job " + id + " of an earlier run of " + folder.string() + " is still in the queue: it is cancelled");
+    context.warn("job " + id + " of an earlier run of " + folder.string() + " is still in the queue and will be cancelled");
     run_or_throw({"scancel", id}, context);
   }
   while (!jobs_in_queue(id, context).empty()) {
     if (Clock::now() - begin > k_cancel_patience)
       throw Error({.code = ErrorCode::internal,
                    .attempted = "cancelling job " + id + " of an earlier run",
-                   .problem = "it is still in the queue after a minute",
+                   .problem = "the job is still in the queue after a minute",
                    .hint = "scancel --signal=KILL " + id});
     std::this_thread::sleep_for(k_queue_pause);
   }

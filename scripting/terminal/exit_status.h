@@ -12,8 +12,8 @@ inline constexpr int k_exit_invalid = 3;        ///< the mesh is INVALID, or wit
 inline constexpr int k_exit_interrupted = 130;  ///< stopped by Ctrl-C or SIGTERM; the shells' own 128 + SIGINT
 
 inline constexpr const char* k_exit_status_help =
-    "Exit status: 0 success (check: VALID), 1 the run failed, 2 wrong command line, option or script, 3 the mesh is INVALID (check --strict: or a QUALITY gate "
-    "FAILs), 130 stopped by Ctrl-C.";
+    "Exit status: 0 success (check: VALID), 1 the run failed, 2 wrong command line, option or script, 3 the mesh is INVALID (with check --strict also: a "
+    "QUALITY gate FAILs), 130 stopped by Ctrl-C.";
 
 constexpr int exit_status_of(ErrorCode code) {
   switch (code) {

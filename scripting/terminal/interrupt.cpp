@@ -104,12 +104,12 @@ void InterruptGuard::look_at_late_work() {
   if (!requested_ || is_left_to_work_ || std::chrono::steady_clock::now() - *requested_ < k_late) return;
   requested_.reset();
   if (!ends_late_work_) {
-    say("\nstopping; what runs does not look for it. Ctrl-C again ends the program\n");
+    say("\nstopping; the current step cannot be interrupted. Press Ctrl-C again to end the program at once\n");
     return;
   }
   kill_children();
   remove_temporaries();
-  say("\nerror: stopped on request, in the middle of work that does not look for it\n");
+  say("\nerror: stopped on request, within a step that cannot be interrupted\n");
   _exit(k_exit_interrupted);
 }
 

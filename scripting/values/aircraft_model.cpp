@@ -64,7 +64,7 @@ Aircraft aircraft_of(const AircraftParts& parts) {
          component->has_mirror_image() ? std::vector{component->name(), image_name(component->name())} : std::vector{component->name()})
       if (!names.insert(name).second)
         throw Error({.code = ErrorCode::bad_argument,
-                     .attempted = "putting the aircraft together",
+                     .attempted = "assembling the aircraft",
                      .problem = "two components are named \"" + name + "\"",
                      .hint = "give them names: wing{ name = \"tail\", ... }"});
     append_description(aircraft, *component);
@@ -91,7 +91,7 @@ ModelValue unite_solids(const std::vector<ModelHandle>& models, const UniteOptio
   ModelValue value = assemble(models, context);
   refit_for_cad(value.model, context);  // the kernel of the union supports splines only
   UniteResult united = cad::unite_aircraft(value.model, options, context);
-  value.report = fmt::format("union: volume {:.6g} m^3, parts have {:.6g} m^3 together; {} {}", united.report.volume, united.report.sum_of_volumes,
+  value.report = fmt::format("union: volume {:.6g} m^3, sum of the parts {:.6g} m^3; {} {}", united.report.volume, united.report.sum_of_volumes,
                              united.report.n_bodies, united.report.n_bodies == 1 ? "body" : "bodies that do not touch");
   for (const UniteTry& attempt : united.report.tries)
     if (!attempt.problem.empty()) value.report += fmt::format("\n  tolerance {:.3g} m was not enough: {}", attempt.tolerance, attempt.problem);
@@ -104,7 +104,7 @@ ModelValue unite_solids(const std::vector<ModelHandle>& models, const UniteOptio
 
 ModelValue assemble(const std::vector<ModelHandle>& models, const RunContext& context) {
   if (models.size() == 1) return *models.front();
-  ModelValue value{.without_description = "it is put together of models"};
+  ModelValue value{.without_description = "it is assembled from models"};
   std::set<std::string> taken;
   for (const ModelHandle& handle : models) {
     Model model = handle->model;

@@ -41,7 +41,7 @@ class MemorySource final : public ByteSource {
   }
   std::uint64_t n_left() const override { return bytes_.size() - at_; }
   [[noreturn]] void refuse() const override {
-    throw Error({.code = ErrorCode::internal, .attempted = "keeping a model", .problem = "what was written cannot be read"});
+    throw Error({.code = ErrorCode::internal, .attempted = "keeping a model", .problem = "the stored model cannot be read"});
   }
 
  private:
@@ -113,9 +113,9 @@ std::string bytes_of(const ModelValue& value, std::string_view verb, const RunCo
     MemorySource source(bytes);
     const auto some_shape = std::make_shared<const CadShape>(std::function<std::shared_ptr<const CadShape>()>());
     if (written(read_model_value(source, [&](std::size_t) { return some_shape; })) == bytes) return bytes;
-    context.debug(std::string(verb) + ": its model is not kept, as it would not come back to the bit");
+    context.debug(std::string(verb) + ": the model is not cached, because reading it back would not give the same bits");
   } catch (const NotKept& what) {
-    context.debug(std::string(verb) + ": its model is not kept, as it has " + what.kind);
+    context.debug(std::string(verb) + ": the model is not cached, because it has " + what.kind);
   }
   return {};
 }
@@ -174,14 +174,14 @@ class MadeLater {
  private:
   ModelHandle make() const {
     const RunContext& context = call_.session.context;
-    context.info(std::string(call_.verb) + ": once more, as OpenCASCADE's shape of its model is needed, which caches do not keep");
+    context.info(std::string(call_.verb) + ": runs again, because OpenCASCADE's shape of the model is required, which the cache does not store");
     const ScriptValue value = verb_.run(call_);
     ModelHandle model = std::get<ModelHandle>(value);
     if (KeyMaker("bytes").add(bytes_of(*model, call_.verb, context)).key() != bytes_key_)
       throw Error({.code = ErrorCode::geometry_failed,
                    .attempted = call_.attempted(),
-                   .problem = "gives another model than before in this run",
-                   .hint = "an input file changed meanwhile: run the script again"});
+                   .problem = "the verb gives another model than before in this run",
+                   .hint = "an input file changed during the run: run the script again"});
     return model;
   }
   const ScriptVerb& verb_;
@@ -205,7 +205,7 @@ ScriptValue cached_model(const ScriptVerb& verb, const ScriptCall& call) {
   if (!cache) return verb.run(call);
   const std::optional<ContentKey> key = key_of_model(call);
   if (!key) {
-    call.session.context.debug(std::string(verb.name) + ": cannot be cached, as it is not known what all of its input was made of");
+    call.session.context.debug(std::string(verb.name) + ": cannot be cached, because the origin of some input is unknown");
     return verb.run(call);
   }
   const RunContext& context = call.session.context;

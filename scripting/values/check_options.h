@@ -42,15 +42,16 @@ struct Schema<scripting::CheckSettings> {
   static constexpr std::array fields = {
       Field<O>{.name = "intersections", .member = &O::intersections, .help = "test boundaries and envelope exactly for intersection (gate G2)"},
       Field<O>{.name = "quality", .member = &O::quality, .help = "measure the QUALITY gates (dual metrics, growth, angles, skew)"},
-      Field<O>{.name = "findings_per_kind", .member = &O::findings_per_kind, .min = 1, .max = 1e6, .help = "places listed for each kind of violation"},
+      Field<O>{
+          .name = "findings_per_kind", .member = &O::findings_per_kind, .min = 1, .max = 1e6, .help = "number of locations listed for each kind of violation"},
       Field<O>{.name = "cell_centred",
                .member = &O::cell_centred,
-               .help = "with quality, measure also what cell-centred solvers feel: OpenFOAM's non-orthogonality, skewness ..."},
-      Field<O>{.name = "strict", .member = &O::strict, .help = "a QUALITY gate that FAILs is an error too"},
+               .help = "with quality, also compute the measures of cell-centred solvers: OpenFOAM's non-orthogonality, skewness ..."},
+      Field<O>{.name = "strict", .member = &O::strict, .help = "treat a QUALITY gate that FAILs as an error"},
       Field<O>{.name = "solvers",
                .member = &O::solvers,
-               .help = "solvers that the verdict is for, with commas: su2, tau, edge, fun3d (node-centred), openfoam, fluent (cell-centred), all; automatic: "
-                       "those that read the format of the file, else all"},
+               .help = "solvers of the verdict, separated by commas: su2, tau, edge, fun3d (node-centred), openfoam, fluent (cell-centred), all; automatic: "
+                       "solvers that read the format of the file, otherwise all"},
   };
 };
 

@@ -45,7 +45,7 @@ Consumers consumers_of_solvers(std::string_view list, Consumers usual, std::stri
     if (solver == k_solver_names.end())
       throw Error({.code = ErrorCode::bad_argument,
                    .attempted = std::string(option) + " \"" + std::string(list) + "\"",
-                   .problem = "\"" + std::string(name) + "\" is no solver that is known",
+                   .problem = "\"" + std::string(name) + "\" is not a known solver",
                    .hint = "known are " + known_solvers() + "; several are separated by commas"});
     add_consumers(consumers, solver->consumers);
   } while (!rest.empty());

@@ -28,23 +28,23 @@ struct Schema<scripting::DiscNumbers> {
   using O = scripting::DiscNumbers;
   static constexpr std::string_view stage = "actuator_disc";
   static constexpr std::array fields = {
-      Field<O>{.name = "name", .member = &O::name, .help = "of the patch on the upstream side; the downstream side gets the name with .back behind it"},
+      Field<O>{.name = "name", .member = &O::name, .help = "name of the patch on the upstream side; the downstream patch is NAME.back"},
       Field<O>{.name = "radius",
                .member = &O::radius,
                .unit = Unit::metre,
                .min = 1e-12,
-               .help = "of the disc; a circle in the fluid, or inside of the body around it (a duct that the disc fills)",
+               .help = "outer radius: in the fluid, or inside the body around the disc (a duct that the disc fills)",
                .required = true},
       Field<O>{.name = "inner_radius",
                .member = &O::inner_radius,
                .unit = Unit::metre,
                .min = 0.0,
-               .help = "of a ring; 0: a full disc, or one that ends on the walls with layers that go through it (a spinner, a hub)"},
+               .help = "inner radius of a ring; 0: a full disc, or a disc that ends on walls with layers that pass through it (a spinner, a hub)"},
       Field<O>{.name = "edge",
                .member = &O::edge,
                .unit = Unit::metre,
                .min = 1e-12,
-               .help = "longest edge of its triangles",
+               .help = "longest edge of the disc's triangles",
                .automatic = "a twelfth of the radius"},
   };
 };
@@ -69,7 +69,7 @@ ActuatorDisc disc_of(const ScriptTable& table, const std::string& attempted) {
   refuse_items_beyond(reader, 0);
   const auto center = read_point(reader, "center");
   if (center) disc.center = *center;
-  else reader.add_problem("center: is needed, {x, y, z}");
+  else reader.add_problem("center: required, {x, y, z}");
   if (const auto axis = read_point(reader, "axis")) disc.axis = *axis;
   reader.read_options(options);
   reader.require(options);
@@ -92,11 +92,12 @@ ScriptValue make_disc(const ScriptCall& call) {
 
 std::string disc_help() {
   DiscNumbers numbers;
-  return options_help(sterna::options_of(numbers)) + "center = {x, y, z} in metres; axis = {x, y, z}: the way the flow goes through, {1, 0, 0} unless given\n";
+  return options_help(sterna::options_of(numbers)) +
+         "center = {x, y, z} in metres; axis = {x, y, z}: direction of the flow through the disc, by default {1, 0, 0}\n";
 }
 
 constexpr std::array<ScriptVerb, 1> k_disc_verbs = {{
-    {"actuator_disc", k_disc_usage, "A disc or ring without thickness in the fluid, two patches back to back, for the interfaces of volume_mesh.", make_disc,
+    {"actuator_disc", k_disc_usage, "Disc or ring without thickness in the fluid, with a patch on each side, for the interfaces of volume_mesh.", make_disc,
      disc_help, false, "disc"},
 }};
 
@@ -121,7 +122,7 @@ ActuatorDisc disc_of_text(const std::string& text) {
   if (!(words >> name) || name.find('=') != std::string::npos)
     throw Error({.code = ErrorCode::bad_argument,
                  .attempted = attempted,
-                 .problem = "the first word must be its name",
+                 .problem = "the first word must be the name of the disc",
                  .hint = "such as \"prop center=0,0,0 radius=1.2\""});
   table.fields["name"] = name;
   for (std::string word; words >> word;) {

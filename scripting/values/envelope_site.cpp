@@ -28,9 +28,9 @@ void require_ready(const EnvelopeValue& envelope, const MeshCase& options, const
                  .attempted = "tetrahedra around an envelope that is only " + std::string(to_string(envelope.step)),
                  .problem = std::move(problem),
                  .places = std::move(places),
-                 .hint = "envelope.unwarp{ env } makes its elements valid, envelope.retract{ env } parts what meets"});
+                 .hint = "envelope.unwarp{ env } makes the elements valid, envelope.retract{ env } separates layers that intersect"});
   };
-  if (envelope.step == EnvelopeStep::classified) refuse("it has no heights yet", {});
+  if (envelope.step == EnvelopeStep::classified) refuse("the envelope has no heights yet", {});
   EnvelopeValue value = envelope;
   value.options = options;
   const auto site = envelope_site(value, context);

@@ -68,7 +68,7 @@ void require_y_plus(TableReader& reader, volmesh::FirstHeightOptions& options) {
   const std::vector<ScriptValue>& items = reader.items();
   const auto number = items.empty() ? std::nullopt : number_of(items.front());
   if (!items.empty() && !number) {
-    reader.add_problem("entry 1: expected the wanted y+, not " + std::string(type_text(items.front())));
+    reader.add_problem("entry 1: expected the target y+, not " + std::string(type_text(items.front())));
     return;
   }
   if (number && !is_automatic(options.y_plus)) reader.add_problem("y_plus: given twice");
@@ -80,7 +80,7 @@ void require_y_plus(TableReader& reader, volmesh::FirstHeightOptions& options) {
       reader.add_problem("entry 1: " + error.info().problem);
     }
   } else if (is_automatic(options.y_plus)) {
-    reader.add_problem("needs the wanted y+ as its first entry");
+    reader.add_problem("needs the target y+ as the first entry");
   }
 }
 
@@ -147,15 +147,16 @@ std::string boundary_layer_help() {
 }
 
 constexpr std::array<ScriptVerb, 3> k_flow_verbs = {{
-    {"flow", k_flow_usage, "Flow conditions: Reynolds number, speed and state of the gas, for y_plus, boundary_layer and mesh:su2_config.", make_flow,
+    {"flow", k_flow_usage,
+     "Defines flow conditions: Reynolds number, speed and state of the gas, for y_plus, boundary_layer, mesh:su2_config and mesh:foam_case.", make_flow,
      flow_help, false, "quantity"},
     {"y_plus", k_y_plus_usage,
-     "The first height that gives a wanted y+ on a turbulent flat plate; a number of metres that prints what it was made of. On the command line: "
+     "Computes the first height for a target y+ on a turbulent flat plate, in metres; printing the value shows its derivation. On the command line: "
      "--first-height \"y_plus 1 mach=0.78 altitude=11000 length=4.2\".",
      make_y_plus, y_plus_help, false, "quantity"},
     {"boundary_layer", k_boundary_layer_usage,
-     "The thickness of a turbulent boundary layer, for the total height of layers; a number of metres that prints what it was made of. On the command line: "
-     "--total-height \"boundary_layer factor=1.3 reynolds=6e6 length=1\".",
+     "Computes the thickness of a turbulent boundary layer, for the total height of layers, in metres; printing the value shows its derivation. On the command "
+     "line: --total-height \"boundary_layer factor=1.3 reynolds=6e6 length=1\".",
      make_boundary_layer, boundary_layer_help, false, "quantity"},
 }};
 
@@ -172,7 +173,8 @@ std::optional<volmesh::FlowState> read_flow(TableReader& reader, std::size_t fir
   const OptionTable table = flow_options(conditions);
   const bool is_named = reader.read_options(table) > 0;
   const std::vector<ScriptValue>& items = reader.items();
-  if (items.size() > first_item + 1) reader.add_problem("entry " + std::to_string(first_item + 2) + ": there is one too many");
+  if (items.size() > first_item + 1)
+    reader.add_problem("entry " + std::to_string(first_item + 2) + ": unexpected, only one entry with flow conditions is allowed");
   if (items.size() > first_item) {
     const auto* quantity = std::get_if<QuantityHandle>(&items[first_item]);
     if (!quantity)
@@ -215,7 +217,7 @@ QuantityValue quantity_of_text(const std::string& text) {
     else set_option_as_typed(find_option(table, word.substr(0, equals), attempted), word.substr(equals + 1));
   }
   if (is_first_height && is_automatic(first.y_plus))
-    throw Error({.code = ErrorCode::bad_argument, .attempted = attempted, .problem = "the wanted y+ is missing", .hint = std::string(k_y_plus_text)});
+    throw Error({.code = ErrorCode::bad_argument, .attempted = attempted, .problem = "the target y+ is missing", .hint = std::string(k_y_plus_text)});
   try {
     const volmesh::FlowState flow = volmesh::flow_state(conditions);
     return is_first_height ? first_height_value(first, flow) : thickness_value(thickness, flow);

@@ -159,8 +159,8 @@ void refit_for_cad(Model& model, const RunContext& context) {
   if (!cad::needs_refit(model)) return;
   cad::RefitReport refit;
   model = cad::refitted(model, k_refit_share * box_of(model).longest_side(), refit, context);
-  context.info(fmt::format("{} deformed surfaces and {} curves became splines, at most {:.3g} m away, before OpenCASCADE takes them", refit.n_surfaces,
-                           refit.n_curves, refit.error));
+  context.info(
+      fmt::format("{} deformed surfaces and {} curves became splines for OpenCASCADE, at most {:.3g} m away", refit.n_surfaces, refit.n_curves, refit.error));
 }
 
 bool has_container(const Model& model) {
@@ -174,12 +174,12 @@ ModelValue assemble_united(const std::vector<ModelHandle>& models, const RunCont
   refit_for_cad(for_cad, context);
   Solids solids = solids_of(for_cad);
   if (!solids.is_all_closed) {
-    context.info("the assembly has open surfaces: its models stay side by side, touching or not");
+    context.info("the assembly has open surfaces: its models stay separate, even if they touch");
     return value;
   }
   const std::vector<Model> united = cad::unite_touching(solids.bodies, {}, context);
   if (united.size() == solids.bodies.size()) return value;
-  context.info(fmt::format("assembly: {} solids that touch are {} now", solids.bodies.size(), united.size()));
+  context.info(fmt::format("assembly: {} solids, {} after touching solids were united", solids.bodies.size(), united.size()));
   Model all;
   for (const std::vector<Model>* parts : {&united, &std::as_const(solids.containers)})
     for (const Model& part : *parts) append(all, part);
@@ -190,7 +190,7 @@ ModelValue assemble_united(const std::vector<ModelHandle>& models, const RunCont
 ModelValue fluid_of(ModelValue all, const RunContext& context) {
   if (!has_container(all.model)) return all;
   if (are_bodies_apart(all.model)) {  // the tunnel minus cavities: no face changes
-    all.report = "fluid: no body comes near the tunnel's faces or another body; " + inside_text(names_of_bodies(all.model));
+    all.report = "fluid: no body is close to the tunnel's faces or to another body; " + inside_text(names_of_bodies(all.model));
     context.info(all.report);
     const Solids solids = solids_of(all.model);
     Model in_order = solids.containers.front();
@@ -204,7 +204,7 @@ ModelValue fluid_of(ModelValue all, const RunContext& context) {
   if (!solids.is_all_closed) {
     const std::vector<OpenEdge> open = open_edges(all.model);
     ErrorInfo info{.code = ErrorCode::open_surface,
-                   .attempted = "taking the model out of its tunnel",
+                   .attempted = "subtracting the model from its tunnel",
                    .problem = "the model has open surfaces",
                    .hint = "only closed bodies have an inside: read_cad{ ..., cap = true } closes flat openings"};
     for (const OpenEdge& edge : open)
@@ -214,9 +214,9 @@ ModelValue fluid_of(ModelValue all, const RunContext& context) {
   }
   if (solids.containers.size() > 1)
     throw Error({.code = ErrorCode::bad_argument,
-                 .attempted = "taking the model out of its tunnel",
+                 .attempted = "subtracting the model from its tunnel",
                  .problem = fmt::format("there are {} tunnels", solids.containers.size()),
-                 .hint = "one closed container holds the fluid"});
+                 .hint = "give one closed container for the fluid"});
   if (solids.bodies.empty()) return all;
   std::vector<std::string> passing;  // "sting" through "outflow"
   const auto may_pass = [&](const cad::Overhang& overhang) {
@@ -273,12 +273,12 @@ ModelValue half_of_model(const ModelValue& whole, const HalfModelOptions& option
   value.model = std::move(half.model);
   value.parts.clear();
   value.report = r.was_half
-                     ? "half model as it is"
+                     ? "the model is a half model already, unchanged"
                      : fmt::format("half at {} = {:g}: {} faces cut{}", options.axis, options.at, r.n_faces_cut, r.was_united ? ", after the union" : "");
-  if (r.n_solids_left_out > 0) value.report += fmt::format(", {} solids of the other half left out", r.n_solids_left_out);
+  if (r.n_solids_left_out > 0) value.report += fmt::format(", {} solids of the other half removed", r.n_solids_left_out);
   if (r.n_faces_split > 0) value.report += fmt::format(", {} closed faces split at their seams", r.n_faces_split);
-  if (r.n_flat_faces > 0) value.report += fmt::format(", {} faces in the plane left out", r.n_flat_faces);
-  value.report += fmt::format("; rim of {} edges, {:.4g} m, moved by at most {:.3g} m into the plane", r.n_rim_edges, r.rim_length, r.largest_shift);
+  if (r.n_flat_faces > 0) value.report += fmt::format(", {} faces in the plane removed", r.n_flat_faces);
+  value.report += fmt::format("; boundary of {} edges, {:.4g} m, moved by at most {:.3g} m into the plane", r.n_rim_edges, r.rim_length, r.largest_shift);
   context.info(value.report);
   value.description.reset();
   value.without_description = "it is half of a model";

@@ -75,7 +75,7 @@ std::optional<std::vector<double>> read_numbers(TableReader& reader, const std::
 }
 
 void refuse_items_beyond(TableReader& reader, std::size_t n) {
-  if (reader.items().size() > n) reader.add_problem("entry " + std::to_string(n + 1) + ": there is one too many");
+  if (reader.items().size() > n) reader.add_problem("entry " + std::to_string(n + 1) + ": unexpected, the verb takes fewer entries without names");
 }
 
 std::vector<ShapeEntry> read_shapes(TableReader& reader, const std::string& name, std::string_view usage) {
@@ -87,7 +87,7 @@ std::vector<ShapeEntry> read_shapes(TableReader& reader, const std::string& name
     return {};
   }
   const bool is_single = (*table)->fields.contains("shape");
-  if (!is_single && (!(*table)->fields.empty() || !(*table)->other_keys.empty())) reader.add_problem(name + ": entries of this list have no names");
+  if (!is_single && (!(*table)->fields.empty() || !(*table)->other_keys.empty())) reader.add_problem(name + ": entries of this list must not have names");
   std::vector<ShapeEntry> entries;
   for (const ScriptValue& item : is_single ? std::vector<ScriptValue>{*value} : (*table)->items) {
     ShapeEntry entry{.table = nullptr, .shape = {}, .value = item, .where = name + ", entry " + std::to_string(entries.size() + 1)};

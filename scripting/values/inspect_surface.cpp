@@ -117,8 +117,8 @@ void add_repairs(const SurfaceValue& wall, const WallFiles& files, const Inspect
     const std::vector<TriangleId> turned = turned_triangles(files, wall.mesh);
     Finding finding{.kind = FindingKind::turned, .severity = Severity::note, .count = stitched.n_flipped};
     finding.text = count_text(stitched.n_flipped) + (stitched.n_flipped == 1 ? " triangle was" : " triangles were") +
-                   " turned over on reading: orientation against the neighbours, or a body inside out";
-    finding.advice = "nothing: volume_mesh reads it the same way. `sterna convert` writes the repaired surface for other programs";
+                   " reversed on reading: the orientation differed from the neighbours, or a body was inside out";
+    finding.advice = "no action required: volume_mesh reads the surface the same way. `sterna convert` writes the repaired surface for other programs";
     for (std::size_t i = 0; i < std::min(turned.size(), static_cast<std::size_t>(request.limits.max_places)); ++i) {
       const auto [a, b, c] = corners(wall.mesh, turned[i]);
       finding.places.push_back(
@@ -129,9 +129,10 @@ void add_repairs(const SurfaceValue& wall, const WallFiles& files, const Inspect
   const std::int64_t n_repairs = stitched.n_degenerate_removed + stitched.n_duplicate_removed + stitched.n_welded_near;
   if (n_repairs == 0) return;
   Finding finding{.kind = FindingKind::repaired, .severity = Severity::note, .count = n_repairs};
-  finding.text = fmt::format("repaired on reading: {} triangles without area, {} copies of triangles or doubled sheets, {} vertices welded to near ones",
-                             count_text(stitched.n_degenerate_removed), count_text(stitched.n_duplicate_removed), count_text(stitched.n_welded_near));
-  finding.advice = "nothing: volume_mesh reads it the same way. Look there when the shape matters: -v tells of each repair";
+  finding.text =
+      fmt::format("repaired on reading: removed {} triangles without area and {} copies of triangles or doubled sheets, welded {} vertices to close ones",
+                  count_text(stitched.n_degenerate_removed), count_text(stitched.n_duplicate_removed), count_text(stitched.n_welded_near));
+  finding.advice = "no action required: volume_mesh reads the surface the same way. If the exact shape matters, list the repairs with -v";
   volmesh::add_finding(report, std::move(finding), {});
 }
 
@@ -145,9 +146,9 @@ std::optional<Finding> many_triangles_of(const surfmesh::SurfaceForecast& foreca
   const surfmesh::FaceForecast& most = forecast.largest.front();
   Finding finding{.kind = FindingKind::many_triangles, .severity = Severity::warn, .count = 1, .value = forecast.n_triangles, .limit = k_many_triangles};
   finding.text =
-      fmt::format("the sizes ask for about {} triangles of the surface; face \"{}\" takes {:.0f} % of them, with edges down to {:.3g} m, because of {}",
+      fmt::format("the sizes require about {} triangles on the surface; face \"{}\" needs {:.0f} % of them, with edges down to {:.3g} m, because of {}",
                   count_text_of(forecast.n_triangles), most.name, k_percent * most.n_triangles / forecast.n_triangles, most.least_edge, most.rule);
-  finding.advice = most.advice + " (--set surface_mesh.min_edge=LENGTH and so on, or for this face alone --patch \"" + most.name + ":...\")";
+  finding.advice = most.advice + " (--set surface_mesh.min_edge=LENGTH and so on, or for this face only --patch \"" + most.name + ":...\")";
   for (std::size_t i = 0; i < std::min(forecast.largest.size(), static_cast<std::size_t>(request.limits.max_places)); ++i) {
     const surfmesh::FaceForecast& face = forecast.largest[i];
     finding.places.push_back({face.place, face.name, face.n_triangles,
@@ -164,15 +165,15 @@ void foresee_remesh(const TriMesh& wall, const InspectRequest& request, Inspecti
     forecast = surfmesh::forecast_remesh(wall, {}, {}, {}, context);
   } catch (const Error& error) {
     if (error.code() == ErrorCode::cancelled) throw;
-    context.info("inspect: the number of triangles that remesh would make is not predicted: " + error.info().problem);
+    context.info("inspect: the number of triangles after remesh cannot be predicted: " + error.info().problem);
     return;
   }
   report.remeshed_triangles = forecast.n_triangles;
   if (forecast.n_triangles <= k_many_triangles) return;
   Finding finding{.kind = FindingKind::many_triangles, .severity = Severity::warn, .count = 1, .value = forecast.n_triangles, .limit = k_many_triangles};
-  finding.text = fmt::format("remesh would make about {} triangles; patch \"{}\" takes {:.0f} % of them, with edges down to {:.3g} m, because of {}",
+  finding.text = fmt::format("remesh would make about {} triangles; patch \"{}\" needs {:.0f} % of them, with edges down to {:.3g} m, because of {}",
                              count_text_of(forecast.n_triangles), forecast.patch, k_percent * forecast.of_patch / forecast.n_triangles, forecast.least_edge,
-                             forecast.is_by_longest ? "max_edge" : "curvature or narrow places");
+                             forecast.is_by_longest ? "max_edge" : "curvature or narrow regions");
   finding.advice = forecast.is_by_longest ? "a larger max_edge of remesh" : "a larger curvature_angle or min_edge of remesh";
   if (request.limits.max_places > 0) finding.places.push_back({forecast.place, forecast.patch, forecast.least_edge, "the shortest edges"});
   replace_finding(report, std::move(finding));
@@ -252,7 +253,7 @@ Inspection inspect_models(std::span<const InputPath> files, const ReadCadOptions
     many = many_triangles_of(forecast, request);
   } catch (const Error& error) {
     if (error.code() == ErrorCode::cancelled) throw;
-    context.info("inspect: the number of triangles is not predicted: " + error.info().problem);
+    context.info("inspect: the number of triangles cannot be predicted: " + error.info().problem);
   }
   if (many) context.warn(many->text + "; try " + many->advice);
   const RunContext meshing = context.part("surface", k_joined * k_foretold, k_joined);
@@ -264,7 +265,7 @@ Inspection inspect_models(std::span<const InputPath> files, const ReadCadOptions
       report.expected_triangles = expected;
       replace_finding(report, std::move(*many));
       replace_finding(report, finding_of(error, request));
-      report.preparation = {.needed = Strength::beyond, .is_model = true, .reason = "it has too many triangles: " + error.info().problem};
+      report.preparation = {.needed = Strength::beyond, .is_model = true, .reason = "the surface has too many triangles: " + error.info().problem};
       return report;
     }
     if (!is_about_surface(error)) throw;
@@ -278,7 +279,7 @@ Inspection inspect_models(std::span<const InputPath> files, const ReadCadOptions
       if (!is_about_surface(error)) throw;
       Inspection report;
       replace_finding(report, finding_of(error, request));
-      report.preparation = {.needed = Strength::beyond, .is_model = true, .reason = "its faces give no triangles: " + error.info().problem};
+      report.preparation = {.needed = Strength::beyond, .is_model = true, .reason = "the faces of the model cannot be meshed: " + error.info().problem};
       return report;
     }
   }
@@ -300,7 +301,7 @@ std::string verdict_of(const InspectReport& report) {
     const std::int64_t n = report.count(severity);
     return n == 0 ? std::string() : fmt::format(", {} {}", n, n == 1 ? one : many);
   };
-  return (report.is_ok() ? "volume_mesh will take it" : "volume_mesh will refuse it") + counted(Severity::error, "error", "errors") +
+  return (report.is_ok() ? "volume_mesh will accept it" : "volume_mesh will refuse it") + counted(Severity::error, "error", "errors") +
          counted(Severity::warn, "warning", "warnings") + counted(Severity::note, "note", "notes");
 }
 

@@ -51,14 +51,14 @@ void ReferenceUse::read(const RunContext& context) {
     throw Error({.code = ErrorCode::file_malformed,
                  .attempted = attempted,
                  .problem = file_.string() + " is damaged: " + problem,
-                 .hint = "remove the file and run the series again: that makes the reference case anew"});
+                 .hint = "remove the file and run the series again, which repeats the reference case"});
   };
   SealedFile file(file_);
   if (!file.is_open())
     throw Error({.code = ErrorCode::file_not_found,
                  .attempted = attempted,
                  .problem = file_.string() + ": " + std::generic_category().message(errno),
-                 .hint = "remove the file and run the series again: that makes the reference case anew"});
+                 .hint = "remove the file and run the series again, which repeats the reference case"});
   if (const std::string problem = file.problem(file_key(), context); !problem.empty()) refuse(problem);
   try {
     const std::unique_ptr<ByteSource> source = file.content();
@@ -73,7 +73,7 @@ void ReferenceUse::read(const RunContext& context) {
 }
 
 void ReferenceUse::save(const RunContext& context) const {
-  context.info("kept for the other cases: surfaces of " + std::to_string(parts_.size()) + " parts and " + std::to_string(envelopes_.size()) +
+  context.info("stored for the other cases: surfaces of " + std::to_string(parts_.size()) + " parts and " + std::to_string(envelopes_.size()) +
                " envelopes, in " + file_.filename().string());
   write_sealed(
       file_, file_key(),

@@ -30,13 +30,16 @@ struct Schema<scripting::FamilyVerbOptions> {
   using O = scripting::FamilyVerbOptions;
   static constexpr std::string_view stage = "family";
   static constexpr std::array fields = {
-      Field<O>{.name = "levels", .member = &O::levels, .min = 1, .max = 12, .help = "members of the family, from coarse to fine"},
-      Field<O>{.name = "factor",
-               .member = &O::factor,
-               .min = 1.01,
-               .max = 4.0,
-               .help = "ratio of edge lengths of a member and the next; its third power is about that of their nodes: 1.5 for 3.4 times, 1.442 for 3 times"},
-      Field<O>{.name = "medium", .member = &O::medium, .min = 1, .max = 12, .help = "number of the member that is as the options say"},
+      Field<O>{.name = "levels", .member = &O::levels, .min = 1, .max = 12, .help = "number of members of the family, from coarse to fine"},
+      Field<O>{
+          .name = "factor",
+          .member = &O::factor,
+          .min = 1.01,
+          .max = 4.0,
+          .help =
+              "ratio of edge lengths between successive members; the ratio of nodes is about its third power: 1.5 for 3.4 times the nodes, 1.442 for 3 times"},
+      Field<O>{
+          .name = "medium", .member = &O::medium, .min = 1, .max = 12, .help = "number of the member with the edge lengths and heights of the given options"},
   };
 };
 
@@ -78,7 +81,7 @@ std::string family_help() {
 }
 
 constexpr std::array<ScriptVerb, 1> k_layer_options_verbs = {{
-    {"family", k_family_usage, "The members of a mesh family, each with a name and the refinement that surface_mesh and volume_mesh both take.", make_family,
+    {"family", k_family_usage, "Returns the members of a mesh family, each with a name and the refinement for surface_mesh and volume_mesh.", make_family,
      family_help, false, "table"},
 }};
 
@@ -152,7 +155,7 @@ void set_first_heights(const FunctionHandle& function, const SurfaceValue& wall,
 
 void warn_of_other_member(const SurfaceValue& wall, const volmesh::MeshCase& options, const RunContext& context) {
   if (!wall.recipe || wall.recipe->options.refinement == options.family.refinement) return;
-  context.warn(fmt::format("the surface was made with refinement {:.4g}, the volume with {:.4g}: for a mesh family give both the same",
+  context.warn(fmt::format("the surface was made with refinement {:.4g}, the volume with {:.4g}: for a mesh family give both the same value",
                            wall.recipe->options.refinement, options.family.refinement));
 }
 

@@ -146,7 +146,7 @@ std::string manifest_json(const MeshValue& mesh, const std::filesystem::path& ou
     if (mesh.origin->smooth_angle) json["wall"] = {{"max_smooth_angle", *mesh.origin->smooth_angle}};
     if (!volume.patches.empty()) json["patch_rules"] = Json::parse(layer_rules_json(volume.patches));
     if (volume.first_heights)
-      json["first_heights"] = {{"by", "a function of place"}, {"least", volume.first_heights->least()}, {"greatest", volume.first_heights->greatest()}};
+      json["first_heights"] = {{"by", "a function of location"}, {"least", volume.first_heights->least()}, {"greatest", volume.first_heights->greatest()}};
     if (!volume.sources.empty()) json["sources"] = Json::parse(sources_text(volume.sources, false));
     if (!volume.discs.empty()) json["actuator_discs"] = Json::parse(discs_json(volume.discs));
     if (!volume.wakes.empty()) json["wake_sheets"] = Json::parse(wakes_json(volume.wakes));

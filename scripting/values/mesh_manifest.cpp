@@ -25,7 +25,7 @@ constexpr std::array k_kinds = {PatchKind::wall,    PatchKind::slip,     PatchKi
 
 [[noreturn]] void refuse_mesh_manifest(const InputPath& file, const std::string& problem) {
   throw Error(
-      {.code = ErrorCode::file_malformed, .attempted = "reading " + file.name + ".json", .problem = problem, .hint = "delete it, or write the mesh anew"});
+      {.code = ErrorCode::file_malformed, .attempted = "reading " + file.name + ".json", .problem = problem, .hint = "delete it, or write the mesh again"});
 }
 
 /// Returns a name in a spelling common to all formats: formats replace unsupported characters by other letters.
@@ -79,7 +79,7 @@ void add_kinds(HybridMesh& mesh, const KnownPatches& known, const InputPath& fil
     if (!is_beside) patch.kind = *kind;
     else
       context.warn("patch \"" + patch.name + "\" of " + file.name + " is of kind " + std::string(to_string(patch.kind)) +
-                   " in the file of conditions beside it, of kind " + std::string(to_string(*kind)) + " in " + file.name + ".json: it is taken as " +
+                   " in its file of boundary conditions, but of kind " + std::string(to_string(*kind)) + " in " + file.name + ".json: the kind is taken as " +
                    std::string(to_string(patch.kind)));
   }
 }
@@ -156,8 +156,8 @@ std::optional<std::string> fitting_manifest(const InputPath& file, const std::st
   if (json->value("output_xxh3_128", Json()) == hash) return json->dump();
   context.warn(
       file.name + ".json is " +
-      (json->contains("output_xxh3_128") ? "of another state of " + file.name : "of an older version and does not say of which state of the file it is") +
-      ": kinds of patches and options in it do not count. Write the file anew with sterna, or delete the manifest");
+      (json->contains("output_xxh3_128") ? "of another version of " + file.name : "of an older version of sterna and does not identify the mesh file") +
+      ": its kinds of patches and options are ignored. Write the file again with sterna, or delete the manifest");
   return std::nullopt;
 }
 
@@ -185,8 +185,8 @@ std::string quoted_list(const std::set<std::string>& names) {
 std::string why_kinds_are_unknown(const InputPath& file) {
   const std::optional<Json> json = read_json(manifest_path(file.path));
   const std::string manifest = manifest_path(file.name).string();
-  return file.name + " holds the names of these patches and not their kinds, and " +
-         (json && is_ours(*json) ? "its manifest " + manifest + " is of another state of the file" : "there is no manifest " + manifest + " that does");
+  return file.name + " has the names of these patches, but not their kinds, and " +
+         (json && is_ours(*json) ? "its manifest " + manifest + " is of another version of the file" : "there is no manifest " + manifest + " with kinds");
 }
 
 void write_manifest_of_copy(const std::string& manifest, const std::filesystem::path& to) {

@@ -74,12 +74,12 @@ PartsMesh mesh_parts(const ModelValue& value, const SurfaceRecipe& recipe, const
   const std::vector<ModelPart> parts = parts_of(value);
   if (value.parts.empty()) return mesh_in_place(value, recipe, sizes, in_place, context);
   if (recipe.options.gap_cells > 0.0 && parts.size() > 1) {
-    context.info("gap_cells: gaps between parts ask for sizes, so all parts are meshed together, where they are");
+    context.info("gap_cells: gaps between parts set edge lengths, so all parts are meshed together, in position");
     return mesh_in_place(value, recipe, sizes, in_place, context);
   }
   const std::vector<surfmesh::SidePair> pairs = surfmesh::side_pairs(recipe.options.periodic);
   if (!pairs.empty() && !are_pairs_within_parts(value, parts, pairs)) {
-    context.info("periodic sides belong to different parts, so all parts are meshed together, where they are");
+    context.info("periodic sides belong to different parts, so all parts are meshed together, in position");
     return mesh_in_place(value, recipe, sizes, in_place, context);
   }
   std::vector<PartTask> tasks;
@@ -102,7 +102,7 @@ PartsMesh mesh_parts(const ModelValue& value, const SurfaceRecipe& recipe, const
   }
   std::optional<surfmesh::SurfaceMesh> joined = surfmesh::join_parts(value.model, placed, recipe.options, context);
   if (!joined) {
-    context.info("triangles of different parts cross that finer ones may part: all parts are meshed together, where they are");
+    context.info("triangles of different parts cross, which finer triangles may avoid: all parts are meshed together, in position");
     return mesh_in_place(value, recipe, sizes, in_place, context);
   }
   PartsMesh result{std::move(*joined), {}};

@@ -89,7 +89,7 @@ std::vector<ModelPart> parts_of(const ModelValue& value) {
   if (!end.is_end_of(value.model))
     throw Error({.code = ErrorCode::internal,
                  .attempted = "finding the parts of a model",
-                 .problem = "the parts have not as many faces, edges and corners as the model"});
+                 .problem = "the parts have other numbers of faces, edges and corners than the model"});
   return value.parts;
 }
 

@@ -58,8 +58,8 @@ PartMeasures part_of(const BodyMeasures& body, std::string kind, const std::vect
 }
 
 std::string part_text(const PartMeasures& part) {
-  std::string text = fmt::format("{} {}, wetted area {:.6g} m^2, seen from above {:.6g} m^2", part.n_faces, part.n_faces == 1 ? "face" : "faces", part.area,
-                                 part.projected_area);
+  std::string text = fmt::format("{} {}, wetted area {:.6g} m^2, projected from above {:.6g} m^2", part.n_faces, part.n_faces == 1 ? "face" : "faces",
+                                 part.area, part.projected_area);
   if (part.is_closed) text += fmt::format(", volume {:.6g} m^3", part.volume);
   if (!part.box.empty()) text += fmt::format(", box {} to {}", format_point(part.box.min), format_point(part.box.max));
   return text;
@@ -146,7 +146,7 @@ std::string open_plane_text(const std::vector<OpenEdge>& open) {
   for (std::size_t k = 0; k < 3; ++k) {
     if (box.max[k] - box.min[k] > k_in_plane * box.longest_side()) continue;
     const double at = 0.5 * (box.min[k] + box.max[k]);
-    return fmt::format("the plane {} = {:.6g} alone: {} {}, {:.4g} m", "xyz"[k], std::abs(at) <= k_in_plane * box.longest_side() ? 0.0 : at, open.size(),
+    return fmt::format("the plane {} = {:.6g} only: {} {}, {:.4g} m", "xyz"[k], std::abs(at) <= k_in_plane * box.longest_side() ? 0.0 : at, open.size(),
                        open.size() == 1 ? "edge" : "edges", length);
   }
   return {};
@@ -162,12 +162,11 @@ std::string measures_text(const ModelReport& measures) {
   for (const PartMeasures& part : measures.components) text += fmt::format("\n  part     \"{}\", {}: {}", part.name, part.kind, part_text(part));
   for (const WingReference& wing : measures.wings)
     text += fmt::format(
-        "\n  wing     \"{}\": span {:.6g} m, area {:.6g} m^2, seen from above {:.6g} m^2, laid flat {:.6g} m^2, aspect ratio {:.4g}, mean chord geometric "
-        "{:.6g} m, aerodynamic "
-        "{:.6g} m from {}",
+        "\n  wing     \"{}\": span {:.6g} m, area {:.6g} m^2, projected from above {:.6g} m^2, unrolled {:.6g} m^2, aspect ratio {:.4g}, mean chord geometric "
+        "{:.6g} m, aerodynamic {:.6g} m from {}",
         wing.name, wing.span, wing.area, wing.projected_area, wing.unrolled_area, wing.aspect_ratio, wing.mean_geometric_chord, wing.mean_aerodynamic_chord,
         format_point(wing.aerodynamic_chord_start));
-  if (!measures.no_wings.empty()) text += "\n  wing     no reference data, which components as data have: " + measures.no_wings;
+  if (!measures.no_wings.empty()) text += "\n  wing     no reference data, which only components defined as data have: " + measures.no_wings;
   return text;
 }
 

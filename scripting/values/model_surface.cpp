@@ -30,46 +30,46 @@ template <>
 struct Schema<surfmesh::PatchSurfaceOptions> {
   using O = surfmesh::PatchSurfaceOptions;
   static constexpr std::string_view stage = "patches";
-  static constexpr std::string_view as_all = "as of all patches";
+  static constexpr std::string_view as_all = "the value for all patches";
   static constexpr std::array own_fields = {
-      Field<O>{.name = "names", .member = &O::names, .help = "pattern of the names of faces"},
-      Field<O>{.name = "max_edge", .member = &O::max_edge, .unit = Unit::metre, .min = 1e-9, .help = "longest edge wanted", .automatic = as_all},
+      Field<O>{.name = "names", .member = &O::names, .help = "pattern of names of faces"},
+      Field<O>{.name = "max_edge", .member = &O::max_edge, .unit = Unit::metre, .min = 1e-9, .help = "target length of the longest edges", .automatic = as_all},
       Field<O>{.name = "min_edge",
                .member = &O::min_edge,
                .unit = Unit::metre,
                .min = 0.0,
-               .help = "curvature and narrow places ask for no shorter edges",
+               .help = "shortest edge length that curvature and narrow regions can require",
                .automatic = as_all},
       Field<O>{.name = "curvature_angle",
                .member = &O::curvature_angle,
                .unit = Unit::radian,
                .min = 0.001,
                .max = 1.6,
-               .help = "an edge spans at most this angle of the surface",
+               .help = "largest angle of the curved surface spanned by an edge",
                .automatic = as_all},
       Field<O>{.name = "chord_error",
                .member = &O::chord_error,
                .unit = Unit::metre,
                .min = 1e-9,
-               .help = "triangles' middles are at most this far from the surface; what is smaller than this need not be resolved",
+               .help = "largest distance of triangle centres from the surface; smaller features need not be resolved",
                .automatic = as_all},
       Field<O>{.name = "leading_edge_factor",
                .member = &O::leading_edge_factor,
                .min = 0.01,
                .max = 1.0,
-               .help = "of the longest edge, at leading edges",
+               .help = "edge length at leading edges, relative to the longest edge",
                .automatic = as_all},
       Field<O>{.name = "trailing_edge_factor",
                .member = &O::trailing_edge_factor,
                .min = 0.01,
                .max = 1.0,
-               .help = "of the longest edge, at trailing edges",
+               .help = "edge length at trailing edges, relative to the longest edge",
                .automatic = as_all},
       Field<O>{.name = "trailing_edge_cells",
                .member = &O::trailing_edge_cells,
                .min = 1.0,
                .max = 100.0,
-               .help = "cells across the base of blunt trailing edges",
+               .help = "number of cells across the base of blunt trailing edges",
                .automatic = as_all},
   };
   static constexpr auto fields = joined(own_fields, surfmesh::edge_row_fields<O>(as_all, as_all, as_all));
@@ -190,8 +190,8 @@ void doubt_size(const Model& model, const RunContext& context) {
   const double size = box_of(model).longest_side();
   if (size <= 0.0 || (size >= k_smallest && size <= k_largest)) return;
   context.info(
-      fmt::format("hint: the model is {:.4g} m long. Lengths are in metres: write 1200*mm in scripts for millimetres, and for CAD files give the unit "
-                  "of their numbers (unit = mm, --unit mm)",
+      fmt::format("hint: the model is {:.4g} m long. Lengths are in metres: write 1200*mm in scripts for millimetres, and for CAD files give the unit of the "
+                  "file (unit = mm, --unit mm)",
                   size));
 }
 
@@ -214,7 +214,7 @@ SurfaceValue mesh_or_unite(const std::vector<ModelHandle>& models, const Surface
     } catch (const Error& failed) {
       if (failed.code() == ErrorCode::cancelled) throw;
       ErrorInfo info = crossing.info();
-      info.problem += "; uniting the parts was tried: " + failed.info().problem;
+      info.problem += "; the union of the parts failed: " + failed.info().problem;
       throw Error(std::move(info));
     }
     KeyMaker maker("united");
@@ -223,7 +223,7 @@ SurfaceValue mesh_or_unite(const std::vector<ModelHandle>& models, const Surface
       if (are_known) maker.add(*model->provenance.key());
     if (are_known) united->provenance = maker.key();
     SurfaceValue surface = mesh_models({united}, recipe, {}, context.part("united", k_second_unite_end, 1.0), reuse);
-    surface.changes.push_back(fmt::format("{} closed parts stand in each other and were united: {} closed now", n_solids, united->model.solids.size()));
+    surface.changes.push_back(fmt::format("{} closed parts intersect and were united: {} closed now", n_solids, united->model.solids.size()));
     context.info("changed: " + surface.changes.back());
     return surface;
   }
@@ -369,11 +369,10 @@ ModelsOfFiles read_model_files(std::span<const InputPath> files, const ReadCadOp
                                std::span<const volmesh::PeriodicNames> periodic) {
   for (const InputPath& file : files)
     if (!is_model_file(file.path))
-      throw Error(
-          {.code = ErrorCode::bad_argument,
-           .attempted = "meshing the surface of " + file.name,
-           .problem = "it is no model (STEP, IGES, BREP, sumo .smx, CPACS .xml)",
-           .hint = "new triangles for a triangulation: sterna remesh " + file.name + " -o wall.stl; a volume mesh on it as it is: sterna mesh " + file.name});
+      throw Error({.code = ErrorCode::bad_argument,
+                   .attempted = "meshing the surface of " + file.name,
+                   .problem = "the file is not a model (STEP, IGES, BREP, sumo .smx, CPACS .xml)",
+                   .hint = "remesh a triangulation: sterna remesh " + file.name + " -o wall.stl; or make a volume mesh on it: sterna mesh " + file.name});
   ModelsOfFiles result{.models = {}, .recipe = recipe};
   std::vector<ModelHandle>& models = result.models;
   const double n = static_cast<double>(files.size());

@@ -74,15 +74,15 @@ ModelValue deflected_model(const ModelValue& value, const std::vector<ControlSet
   if (!value.description || !value.is_as_described)
     throw Error({.code = ErrorCode::bad_argument,
                  .attempted = "deflecting control surfaces of a model",
-                 .problem = value.description ? "it is not as a file describes it" : "its components are not known as data: " + value.without_description,
-                 .hint = "deflect right after read_smx or read_cpacs; wings of a script by wing:deflect{} before aircraft{}"});
+                 .problem = value.description ? "the model was changed after reading" : "the components are not defined as data: " + value.without_description,
+                 .hint = "deflect directly after read_smx or read_cpacs; deflect wings of a script with wing:deflect{} before aircraft{}"});
   ModelValue result = value;
   result.description = with_controls_set(*value.description, settings);
   result.model = make_components(*result.description, context);
   result.parts.clear();
   result.provenance = KeyMaker("deflect").add(*result.description).key();
   for (const Deflection& d : result.description->deflections)
-    if (d.angle != 0.0) context.debug(fmt::format("{} turned by {:.4g} deg", d.surface.name, d.angle / k_degree));
+    if (d.angle != 0.0) context.debug(fmt::format("{} deflected by {:.4g} deg", d.surface.name, d.angle / k_degree));
   return result;
 }
 
@@ -96,8 +96,8 @@ void refuse_cad_options(const InputPath& file, ReadCadOptions options) {
     if (number && is_automatic(*number) ? is_automatic(std::get<double>(option.default_value)) : value == option.default_value) continue;
     throw Error({.code = ErrorCode::bad_argument,
                  .attempted = "reading " + file.name,
-                 .problem = "option read_cad." + std::string(option.name) + " has no effect: the file holds components as data, in metres",
-                 .hint = "leave it out; it is for STEP, IGES and BREP"});
+                 .problem = "option read_cad." + std::string(option.name) + " has no effect: the file defines components as data, in metres",
+                 .hint = "leave it out; it applies to STEP, IGES and BREP"});
   }
 }
 
@@ -122,9 +122,10 @@ void require_model_output(const ModelValue& value, const std::filesystem::path& 
     throw Error({.code = ErrorCode::unsupported_format, .attempted = "writing " + path.string(), .problem = problem, .hint = hint});
   };
   if (!is_model_output(path))
-    refuse("models are not written in this format", "they are written as STEP (.step, .stp), IGES (.iges, .igs), BREP (.brep), sumo (.smx)");
+    refuse("models are not written in this format", "models are written as STEP (.step, .stp), IGES (.iges, .igs), BREP (.brep), sumo (.smx)");
   if (is_smx(path) && !value.description)
-    refuse(".smx holds components as data, and this model has none (" + value.without_description + ")", "write it before, or as STEP");
+    refuse(".smx requires components defined as data, and this model has none (" + value.without_description + ")",
+           "write .smx before that step, or write STEP");
   if (!path.parent_path().empty() && !std::filesystem::is_directory(path.parent_path()))
     throw Error({.code = ErrorCode::write_failed, .attempted = "writing " + path.string(), .problem = "there is no folder " + path.parent_path().string()});
 }

@@ -65,9 +65,9 @@ std::optional<std::string> ends_in_planes(const TriMesh& mesh, const RunContext&
   const Box box = bounding_box(mesh);
   if (planes.empty() || planes.size() > 3 || is_between_four || is_tube(planes)) return std::nullopt;
   if (!std::ranges::all_of(planes, [&](const volmesh::RimPlane& plane) { return is_opening(plane, box); })) return std::nullopt;
-  std::string text = "the surface is open, and all of its rims lie in the " + std::string(planes.size() == 1 ? "plane " : "planes ");
+  std::string text = "the surface is open, and all its open boundaries lie in the " + std::string(planes.size() == 1 ? "plane " : "planes ");
   for (std::size_t i = 0; i < planes.size(); ++i) text += (i == 0 ? "" : i + 1 == planes.size() ? " and " : ", ") + plane_text(planes[i]);
-  return text + ": the domain ends there, in symmetry planes unless farfield_sides or periodic say otherwise; repair closes the surface instead";
+  return text + ": the domain ends there in symmetry planes, unless farfield_sides or periodic define other kinds; to close the surface instead, use repair";
 }
 
 std::optional<std::string> is_open_sheet(const TriMesh& mesh, const RunContext& context) {
@@ -98,9 +98,9 @@ std::optional<std::string> is_open_sheet(const TriMesh& mesh, const RunContext& 
   if (!is_open[largest] || area[largest] < k_main_part * all || norm(sum[largest]) < k_sheet_vector * area[largest]) return std::nullopt;
   const Box& box = boxes[largest];
   return fmt::format(
-      "the surface is an open sheet of {:.4g} m2 from {} to {}, without sides and a lid: the fluid has no boundary there. Wrapped, it becomes a closed body "
-      "with fluid on both sides. For flow on one side (terrain, a floor) --farfield \"box floor=PATCH\" adds sides and a lid; or give sides and a lid, and "
-      "--fluid inside",
+      "the surface is an open sheet of {:.4g} m2 from {} to {}, without sides and a lid: the fluid has no boundary there. Wrapping makes a closed body with "
+      "fluid on both sides. For flow on one side (terrain, a floor), --farfield \"box floor=PATCH\" adds sides and a lid; or give sides and a lid, and --fluid "
+      "inside",
       area[largest], format_point(box.min), format_point(box.max));
 }
 
@@ -124,7 +124,7 @@ SurfaceValue with_floor_upwards(const SurfaceValue& wall, const std::string& flo
   turned.model_wall.reset();  // its triangles have another orientation
   turned.model_wall_key.reset();
   turned.parts.clear();
-  const std::string text = "the floor \"" + floor + "\" had its normals downwards: it is turned, as the fluid is above it";
+  const std::string text = "the floor \"" + floor + "\" had normals pointing downwards: its orientation is reversed, because the fluid is above the floor";
   context.info("surface: " + text);
   turned.report.messages.push_back(text);
   turned.changes.push_back("turned: " + text);
@@ -139,9 +139,9 @@ SurfaceValue as_body(const SurfaceValue& wall, bool has_farfield, const RunConte
   turned.model_wall.reset();  // its triangles have another orientation
   turned.model_wall_key.reset();
   turned.parts.clear();
-  const std::string text = fmt::format("{} open {} with normals inwards turned: a farfield is around bodies, so the normals point out of {}", count_text(n),
+  const std::string text = fmt::format("reversed {} open {} with inward normals: inside a farfield the normals must point out of {}", count_text(n),
                                        n == 1 ? "part" : "parts", n == 1 ? "it" : "them");
-  context.warn("surface: " + text + "; for a domain around its fluid give no farfield");
+  context.warn("surface: " + text + "; if the surface encloses the fluid, give no farfield");
   turned.report.messages.push_back(text);
   turned.changes.push_back("turned: " + text);
   return turned;

@@ -20,8 +20,8 @@ void read_rule(const std::string& names, const ScriptValue& value, std::string_v
   const std::string where = "patches[\"" + names + "\"]";
   const auto* table = std::get_if<TableHandle>(&value);
   if (!table || (*table)->fields.empty()) {
-    reader.add_problem(where + ": expected a table of what these patches ask for instead, like { " + std::string(example) + " }, not " +
-                       std::string(table ? "one without named entries" : type_text(value)));
+    reader.add_problem(where + ": expected a table with options of these patches, such as { " + std::string(example) + " }, not " +
+                       std::string(table ? "a table without names" : type_text(value)));
     return;
   }
   const OptionTable schema = add(names);
@@ -52,8 +52,8 @@ void read_patch_rules(TableReader& reader, std::string_view example, const AddRu
   if (!value) return;
   const auto* table = std::get_if<TableHandle>(value);
   if (!table || !(*table)->items.empty() || !(*table)->other_keys.empty()) {
-    reader.add_problem("patches: expected a table by names of patches, { [\"wing*\"] = { " + std::string(example) + " } }" +
-                       (table ? "; its keys are texts" : ", not " + std::string(type_text(*value))));
+    reader.add_problem("patches: expected a table with names of patches as keys, { [\"wing*\"] = { " + std::string(example) + " } }" +
+                       (table ? "; the keys are strings" : ", not " + std::string(type_text(*value))));
     return;
   }
   for (const auto& [names, entry] : (*table)->fields) read_rule(names, entry, example, reader, add);
@@ -88,7 +88,7 @@ void add_layer_rules(const std::vector<volmesh::PatchRule>& rules, SurfaceValue&
 
 std::string layer_rules_help() {
   volmesh::PatchRule rule;
-  return "patches = { [\"tunnel*\"] = { ... } }, what patches with such names ask for instead; of two patterns that match the one with more letters counts:\n" +
+  return "patches = { [\"tunnel*\"] = { ... } }: options of patches with matching names; of two matching patterns the one with more letters applies:\n" +
          options_help(patch_rule_options(rule));
 }
 
@@ -116,8 +116,8 @@ std::vector<volmesh::PatchRule> layer_rules_of(const std::vector<std::pair<std::
           !sizes && std::ranges::find(table, name, &Option::name) == table.end() && std::ranges::find(of_surface, name, &Option::name) != of_surface.end())
         throw Error({.code = ErrorCode::bad_argument,
                      .attempted = attempted,
-                     .problem = name + " is a size of triangles, and those of a triangulation stay as they are",
-                     .hint = "--remesh gives the surface new triangles with such sizes"});
+                     .problem = name + " is a size of triangles, but the triangles of a triangulation are kept",
+                     .hint = "--remesh makes triangles with such sizes"});
       set_option_as_typed(find_option(table, name, attempted), text);
     }
   }
@@ -140,7 +140,7 @@ void read_rules_json(const std::string& text, std::string_view attempted, const 
   const Json list = Json::parse(text, nullptr, false);
   const auto refuse = [&] {
     throw Error(
-        {.code = ErrorCode::file_malformed, .attempted = std::string(attempted), .problem = "found no list of rules with the names of patches and options"});
+        {.code = ErrorCode::file_malformed, .attempted = std::string(attempted), .problem = "expected a list of rules with names of patches and options"});
   };
   if (!list.is_array()) refuse();
   for (const Json& entry : list) {

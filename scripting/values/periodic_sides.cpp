@@ -60,7 +60,7 @@ PeriodicNames periodic_of_text(const std::string& text) {
   if (comma == std::string::npos || comma == 0 || comma + 1 == text.size() || text.find(',', comma + 1) != std::string::npos)
     throw Error({.code = ErrorCode::bad_argument,
                  .attempted = "option --periodic",
-                 .problem = "\"" + text + "\" is not the names of two patches",
+                 .problem = "\"" + text + "\" does not consist of two names of patches",
                  .hint = "such as --periodic left,right"});
   return {text.substr(0, comma), text.substr(comma + 1)};
 }
@@ -72,7 +72,9 @@ std::string periodic_json(const std::vector<PeriodicNames>& pairs) {
 }
 
 std::vector<PeriodicNames> periodic_of_json(const std::string& text) {
-  const auto fail = [] { throw Error({.code = ErrorCode::bad_argument, .attempted = "reading periodic sides", .problem = "found no list of pairs of names"}); };
+  const auto fail = [] {
+    throw Error({.code = ErrorCode::bad_argument, .attempted = "reading periodic sides", .problem = "expected a list of pairs of names"});
+  };
   const PlainJson list = PlainJson::parse(text, nullptr, false);
   if (!list.is_array()) fail();
   std::vector<PeriodicNames> pairs;

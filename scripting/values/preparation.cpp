@@ -81,10 +81,10 @@ std::string to_do(const surfmesh::RepairForecast& forecast) {
   if (forecast.n_seams > 0) add(counted(forecast.n_seams, "seam zipped", "seams zipped"));
   if (forecast.n_sheets > 0) add(counted(forecast.n_sheets, "sheet removed", "sheets removed"));
   if (forecast.n_holes > 0) add(counted(forecast.n_holes, "hole filled", "holes filled"));
-  if (forecast.n_crossings > 0) add(counted(forecast.n_crossings, "pair of facets that cross cut", "pairs of facets that cross cut"));
-  if (forecast.n_crowded > 0) add(counted(forecast.n_crowded, "edge of more than two facets parted", "edges of more than two facets parted"));
-  if (forecast.half) add("half a model recognised, open at " + forecast.half->axis + fmt::format(" = {:.4g} m", forecast.half->at));
-  return text.empty() ? "facets welded and turned" : text;
+  if (forecast.n_crossings > 0) add(counted(forecast.n_crossings, "pair of crossing facets cut", "pairs of crossing facets cut"));
+  if (forecast.n_crowded > 0) add(counted(forecast.n_crowded, "edge with more than two facets separated", "edges with more than two facets separated"));
+  if (forecast.half) add("half model recognised, open at " + forecast.half->axis + fmt::format(" = {:.4g} m", forecast.half->at));
+  return text.empty() ? "facets welded and oriented" : text;
 }
 
 void choose_repair_or_wrap(Preparation& p, const AutoSurface& options) {
@@ -106,16 +106,18 @@ void choose_repair_or_wrap(Preparation& p, const AutoSurface& options) {
   const surfmesh::WrapEstimate wrap = surfmesh::estimate_wrap(forecast.area, forecast.length, options.wrap);
   if (forecast.n_open > 0) {
     p.reason = forecast.problem + "; repair leaves " + counted(forecast.n_open, "opening", "openings") +
-               fmt::format(", the widest {:.4g} m across ({:.3g} of the length): above its limits, or as large as what is there", forecast.widest_open,
-                           forecast.widest_open / forecast.length);
+               fmt::format(", the widest {:.4g} m across ({:.3g} of the length): above the limits of repair, or as large as the surface itself",
+                           forecast.widest_open, forecast.widest_open / forecast.length);
     p.place = forecast.widest_place;
     if (forecast.widest_open >= forecast.length)
-      p.hint = "what is open as wide as it is long is a sheet, and gets about the wrap's offset as its thickness; or is a part of the surface missing?";
+      p.hint =
+          "a surface with an opening as large as its length is a sheet; wrapped, its thickness is about the wrap's offset. If a part of the surface is "
+          "missing, add it";
     else if (forecast.widest_open > wrap.widest_gap)
-      p.hint = fmt::format("openings wider than {:.3g} m leak, both sides of the skin behind them are wrapped: a gap up to {:.3g} closes this one",
+      p.hint = fmt::format("wrap leaks through openings wider than {:.3g} m and wraps both sides of the skin behind them: gap = {:.3g} closes this opening",
                            wrap.widest_gap, forecast.widest_open);
   } else {
-    p.reason = forecast.problem + "; facets cross, and the outer hull is not taken (hull = false)";
+    p.reason = forecast.problem + "; facets cross, and the outer hull is switched off (hull = false)";
   }
   // Wraps once; preceded by a coarser wrap if openings are wider than the edge; with skin on both sides if they are wider than the widest gap.
   const double rounds = forecast.widest_open > wrap.widest_gap ? k_wrap_leaking : forecast.widest_open > 2.0 * wrap.edge ? k_wrap_coarse : 1.0;
@@ -131,7 +133,7 @@ void advise_remesh(Preparation& p, const InspectReport& report) {
     const auto field = std::ranges::find(report.fields, "smallest_angle", &TriMeshField::name);
     return static_cast<double>(*std::ranges::min_element(field->values));
   }();
-  p.reason = fmt::format("{:.3g} % of the triangles ({}) have a corner below {:.3g} deg, the smallest {:.3g} deg: tetrahedra on them tend to fail gate G14",
+  p.reason = fmt::format("{:.3g} % of the triangles ({}) have an angle below {:.3g} deg, the smallest {:.3g} deg: tetrahedra on them tend to fail gate G14",
                          100.0 * p.needle_share, count_text(p.n_needles), p.needle_limit / k_degree, smallest);
   if (const volmesh::Finding* needle = report.find(FindingKind::needle); needle != nullptr && !needle->places.empty())
     p.place = needle->places.front().position;
@@ -196,7 +198,7 @@ Preparation foresee_preparation(const std::vector<SurfaceSoup>& soups, const Ins
   } else if (has_needles) {
     advise_remesh(p, report);
   }
-  if (p.seconds > 0.0) p.basis += fmt::format("; of one thread, within a factor of {:g} on the files it was fitted to", k_seconds_off);
+  if (p.seconds > 0.0) p.basis += fmt::format("; on one thread, within a factor of {:g} for the files used to fit the estimate", k_seconds_off);
   write_commands(p, inputs, options.stitching.unit);
   return p;
 }
@@ -235,18 +237,18 @@ std::string json_of(const Preparation& p) {
 
 std::string text_of(const Preparation& p) {
   if (p.needed == Strength::none)
-    return "  first nothing       " + std::string(p.is_model ? "the model's own faces are meshed" : "the surface is sound") +
+    return "  first nothing       " + std::string(p.is_model ? "the faces of the model can be meshed" : "the surface is sound") +
            (p.hint.empty() ? "" : "; " + p.hint) + "\n";
   std::string text =
-      fmt::format("  first {:<13} {}{}\n", to_string(p.needed), p.needed == Strength::beyond ? "none of repair, wrap and remesh helps: " : "", p.reason);
+      fmt::format("  first {:<13} {}{}\n", to_string(p.needed), p.needed == Strength::beyond ? "neither repair nor wrap nor remesh helps: " : "", p.reason);
   if (p.place) text += "        at " + format_point(*p.place) + "\n";
-  if (p.is_triangulated) text += "        the model goes on as triangles; patches keep the names of its faces\n";
+  if (p.is_triangulated) text += "        the model is replaced by triangles; patches keep the names of its faces\n";
   if (!p.command.empty()) text += "        run: " + p.command + "\n";
   if (!p.script.empty()) text += "        or in Lua: " + p.script + "\n";
   if (!p.hint.empty()) text += "        try: " + p.hint + "\n";
   if (p.seconds > 0.0) text += fmt::format("        takes about {} s ({})\n", number_text(p.seconds, 2), p.basis);
   if (p.is_remesh_advised && p.needed != Strength::remesh)
-    text += fmt::format("        then remesh: {:.3g} % of the triangles have a corner below {:.3g} deg\n", 100.0 * p.needle_share, p.needle_limit / k_degree);
+    text += fmt::format("        then remesh: {:.3g} % of the triangles have an angle below {:.3g} deg\n", 100.0 * p.needle_share, p.needle_limit / k_degree);
   return text;
 }
 

@@ -47,8 +47,8 @@ constexpr std::array<RemeshAttempt, 2> k_coarser{{{2.0 / 3.0, true}, {4.0 / 9.0,
 constexpr std::array<RemeshAttempt, 2> k_finer{{{1.0, false}, {1.5, true}}};
 
 std::string text_of(const RemeshAttempt& attempt) {
-  if (!attempt.is_smooth) return "it is tried with vertices on the given triangles";
-  return fmt::format("it is tried with edges {:.3g} times as long", 1.0 / attempt.refinement);
+  if (!attempt.is_smooth) return "remesh is repeated with vertices on the given triangles";
+  return fmt::format("remesh is repeated with edges {:.3g} times as long", 1.0 / attempt.refinement);
 }
 
 std::optional<ContentKey> remesh_key(const SurfaceValue& wall, const RemeshRecipe& recipe, const std::function<double(const Point&)>& size) {
@@ -121,8 +121,9 @@ SurfaceValue without_needles(const SurfaceValue& wall, const RemeshRecipe& recip
     const surfmesh::NeedleCount after = surfmesh::count_needles(made.mesh);
     const double share = static_cast<double>(after.n) / static_cast<double>(made.mesh.n_triangles());
     if (share <= demand.most_needles && after.least_angle >= demand.least_angle) return true;
-    context.info(fmt::format("auto: remesh leaves {:.3g} % needles of {:.3g} %, the least angle {:.3g} deg for {:.3g} deg", 100.0 * share, 100.0 * share_before,
-                             after.least_angle / k_degree, before.least_angle / k_degree));
+    context.info(
+        fmt::format("auto: after remesh {:.3g} % of the triangles are slivers (before: {:.3g} %), the smallest angle is {:.3g} deg (before: {:.3g} deg)",
+                    100.0 * share, 100.0 * share_before, after.least_angle / k_degree, before.least_angle / k_degree));
     return false;
   };
   std::span<const RemeshAttempt> others;
@@ -130,7 +131,7 @@ SurfaceValue without_needles(const SurfaceValue& wall, const RemeshRecipe& recip
   for (RemeshAttempt attempt = k_first;;) {
     bounded.options.refinement = attempt.refinement * recipe.options.refinement;
     bounded.options.smooth = attempt.is_smooth && recipe.options.smooth;
-    std::string problem = "auto: it does not meet the demand";
+    std::string problem = "auto: the result of remesh does not meet the requirements";
     try {
       SurfaceValue made = remeshed_if(wall, bounded, {}, demand, context, reuse);
       if (meets(made)) return with_change(std::move(made), wall, context);
@@ -143,7 +144,7 @@ SurfaceValue without_needles(const SurfaceValue& wall, const RemeshRecipe& recip
       if (others.empty()) others = is_too_many ? std::span<const RemeshAttempt>(k_coarser) : std::span<const RemeshAttempt>(k_finer);
     }
     if (next == others.size()) {
-      context.info(problem + "; the triangles stay as they are");
+      context.info(problem + "; the triangles are kept");
       return wall;
     }
     attempt = others[next++];

@@ -59,11 +59,11 @@ void tell_replaced_faces(const SurfaceValue& made, SurfaceValue& repaired, const
   const surfmesh::ReplacedFaces replaced = surfmesh::find_replaced_faces(*made.model_wall, made.mesh, repaired.mesh, context);
   if (replaced.faces.empty()) return;
   const std::vector<std::string> lines = to_lines(replaced.faces, replaced.faces.size());
-  std::string text = fmt::format(
-      "{} of {} faces of the model have triangles that are not their own, the other {} of {} triangles are as the faces made them: ", replaced.faces.size(),
-      made.mesh_report->faces.size(), count_text(replaced.n_exact), count_text(static_cast<std::int64_t>(repaired.mesh.n_triangles())));
+  std::string text =
+      fmt::format("triangles of {} of {} faces of the model were replaced, the other {} of {} triangles are unchanged: ", replaced.faces.size(),
+                  made.mesh_report->faces.size(), count_text(replaced.n_exact), count_text(static_cast<std::int64_t>(repaired.mesh.n_triangles())));
   for (std::size_t i = 0; i < std::min(k_faces_told, lines.size()); ++i) text += (i == 0 ? "" : "; ") + lines[i];
-  if (lines.size() > k_faces_told) text += fmt::format("; and {} more (log, report)", lines.size() - k_faces_told);
+  if (lines.size() > k_faces_told) text += fmt::format("; and {} more (see log or report)", lines.size() - k_faces_told);
   repaired.changes.push_back(std::move(text));
   for (const std::string& line : lines) {
     repaired.report.messages.push_back(line);
@@ -223,13 +223,13 @@ SurfaceValue auto_triangles(std::span<const InputPath> files, const AutoSurface&
         context.info("auto: " + *planes);
         return surface;
       }
-    first = {.code = ErrorCode::open_surface, .attempted = "meshing the model's surface", .problem = "it is open"};
+    first = {.code = ErrorCode::open_surface, .attempted = "meshing the model's surface", .problem = "the surface is open"};
     open = std::move(surface);
   } catch (const Error& error) {
     if (!is_about_surface(error)) throw;
     first = error.info();
   }
-  context.info("auto: " + first.attempted + ": " + first.problem + "; repair is tried");
+  context.info("auto: " + first.attempted + ": " + first.problem + "; repair follows");
   std::vector<UnionItem> items(files.begin(), files.end());
   SurfaceHandle of_model;  // surface of the model with the triangles of its faces
   if (are_models(files)) {
@@ -250,13 +250,13 @@ SurfaceValue auto_triangles(std::span<const InputPath> files, const AutoSurface&
     const std::int64_t n_folded = surfmesh::count_folded_edges(repaired.wall.mesh);
     if (static_cast<double>(n_folded) < surfmesh::k_many_folded * 1.5 * static_cast<double>(repaired.wall.mesh.n_triangles()))
       return accepted(std::move(repaired), context);
-    context.info(
-        fmt::format("auto: repair leaves {} pairs of facets folded onto each other, which tetrahedra cannot fill; wrap is tried", count_text(n_folded)));
+    context.info(fmt::format("auto: repair leaves {} pairs of facets folded onto each other, around which tetrahedra cannot be made; wrap follows",
+                             count_text(n_folded)));
     folded = std::move(repaired);
   } catch (const Error& error) {
     if (!is_about_surface(error)) throw;
     first.problem += "; repair: " + error.info().problem;
-    context.info("auto: repair: " + error.info().problem + "; wrap is tried");
+    context.info("auto: repair: " + error.info().problem + "; wrap follows");
   }
   if (const std::optional<std::string> sheet = sheet_of(items, stitching, context.part("sheet", k_repair_end, k_repair_end))) context.warn("auto: " + *sheet);
   try {

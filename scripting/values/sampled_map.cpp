@@ -45,7 +45,7 @@ class Kept {
     const auto [place, is_new] = values_.try_emplace(std::array{p.x, p.y, p.z});
     if (is_new) {
       place->second = f_(p);
-      if (!is_finite(place->second)) refuse("the function does not give finite numbers", p);
+      if (!is_finite(place->second)) refuse("the function does not return finite numbers", p);
     }
     return place->second;
   }
@@ -184,8 +184,8 @@ SampledMap::SampledMap(const std::function<Vec3(const Point&)>& displacement, co
     for (const std::vector<double>& stations : at)
       for (std::size_t i = 0; i + 1 < stations.size(); ++i) shortest = std::min(shortest, stations[i + 1] - stations[i]);
     if (next > static_cast<std::size_t>(options.max_samples) || shortest < k_least_interval * size)
-      refuse(fmt::format("a spline of {} samples is still {:.3g} m off the function, the tolerance is {:.3g} m", n, error_, tolerance), worst,
-             "a kink or a step there? Make it smooth, allow a larger tolerance, or more max_samples");
+      refuse(fmt::format("a spline with {} samples deviates from the function by {:.3g} m, the tolerance is {:.3g} m", n, error_, tolerance), worst,
+             "if the function has a kink or step there, make it smooth; or increase tolerance or max_samples");
   }
 }
 

@@ -52,13 +52,13 @@ struct Schema<scripting::SampledMapOptions> {
                .unit = Unit::metre,
                .min = 1e-15,
                .max = 1e3,
-               .help = "largest distance between the function and the spline that stands for it",
+               .help = "largest distance between the function and the spline that approximates it",
                .automatic = "1e-6 of the longest side"},
       Field<O>{.name = "max_samples",
                .member = &O::max_samples,
                .min = 125,
                .max = 1e7,
-               .help = "places at which the function may be asked at once; more are an error"},
+               .help = "largest number of points at which the function is evaluated; more are an error"},
   };
 };
 

@@ -67,7 +67,7 @@ volmesh::Envelope envelope_of(io::StoredEnvelope file_envelope, const InputPath&
   envelope.cap = std::move(file_envelope.cap);
   for (const std::uint8_t limit : file_envelope.limit) {
     if (limit >= volmesh::k_height_limits)
-      refuse(file, "found the limit " + std::to_string(limit) + " of a height, there are " + std::to_string(volmesh::k_height_limits));
+      refuse(file, "a height has the limit code " + std::to_string(limit) + "; the number of known codes is " + std::to_string(volmesh::k_height_limits));
     envelope.limit.push_back(static_cast<volmesh::HeightLimit>(limit));
   }
   return envelope;
@@ -80,13 +80,13 @@ HybridMesh layers_of(HybridMesh mesh, const io::StoredTetrahedra& tetrahedra, co
   std::size_t n_nodes = 0;
   for (std::uint32_t line = 0; line < n_lines; ++line) n_nodes = std::max(n_nodes, mesh.layers.top(line).index() + 1);
   if (n_boundary_points < n_lines || n_boundary_points - n_lines > mesh.points.size() - n_nodes)
-    refuse(file, "found tetrahedra within " + std::to_string(n_boundary_points) + " points of a boundary, but a mesh of " + std::to_string(n_lines) +
+    refuse(file, "the file has tetrahedra within " + std::to_string(n_boundary_points) + " points of a boundary, but a mesh of " + std::to_string(n_lines) +
                      " lines and " + std::to_string(mesh.points.size()) + " nodes");
   mesh.points.raw().resize(n_nodes + (n_boundary_points - n_lines));
   mesh.tetrahedra.clear();
   for (std::size_t i = 0; i < tetrahedra.moved_nodes.size(); ++i) {
     const std::uint32_t node = tetrahedra.moved_nodes[i];
-    if (node >= n_nodes) refuse(file, "found the moved node " + std::to_string(node) + " of layers with " + std::to_string(n_nodes) + " nodes");
+    if (node >= n_nodes) refuse(file, "the file has the moved node " + std::to_string(node) + " of layers with " + std::to_string(n_nodes) + " nodes");
     mesh.points[NodeId(node)] = tetrahedra.moved_points[i];
   }
   return mesh;
@@ -170,7 +170,7 @@ std::string unfinished_json(const SurfaceValue& wall, const volmesh::MeshCase& o
 class StageJson {
  public:
   StageJson(const std::string& text, const InputPath& file) : file_(file), json_(Json::parse(text, nullptr, false)) {
-    if (json_.is_discarded() || !json_.is_object()) refuse(file_, "its manifest is not JSON");
+    if (json_.is_discarded() || !json_.is_object()) refuse(file_, "the manifest is not JSON");
   }
 
   template <class T>
@@ -178,7 +178,7 @@ class StageJson {
     try {
       return json_.at(Json::json_pointer(pointer)).get<T>();
     } catch (const Json::exception& error) {
-      refuse(file_, "its manifest has no proper " + pointer + ": " + error.what());
+      refuse(file_, "the manifest has no valid " + pointer + ": " + error.what());
     }
   }
 
@@ -267,7 +267,7 @@ class StageJson {
     volmesh::ClosedFans closed;
     if (!json_.contains(Json::json_pointer("/stage/closed_fans"))) return closed;
     closed.n_rounds = get<int>("/stage/closed_fans/rounds");
-    if (closed.n_rounds < 0) refuse(file_, "fans were closed in " + std::to_string(closed.n_rounds) + " rounds");
+    if (closed.n_rounds < 0) refuse(file_, "multi-normal fans were closed in " + std::to_string(closed.n_rounds) + " rounds");
     for (const auto v : get<std::vector<std::uint32_t>>("/stage/closed_fans/vertices")) closed.feet.emplace_back(v);
     return closed;
   }
@@ -449,7 +449,7 @@ TetrahedraValue make_tetrahedra(const EnvelopeValue& envelope, const volmesh::Me
   require_ready(envelope, options, context);
   if (envelope.n_sources_in_file > 0 && options.sources.empty())
     context.warn("the run that made this envelope had " + std::to_string(envelope.n_sources_in_file) +
-                 " sources of the size field; a file does not keep them: give them again");
+                 " sources of the size field, which .sterna files do not store: give the sources again");
   const SurfaceValue& wall = *envelope.wall;
   return {.wall = envelope.wall,
           .n_wall_triangles = n_triangles(wall),
@@ -467,15 +467,17 @@ namespace {
 /// Gives a hint if no source refines the wake, which is then resolved only by the growth of tetrahedra.
 void hint_at_wake(const SurfaceValue& wall, const volmesh::MeshCase& options, const RunContext& context) {
   if (volmesh::has_bare_wake(wall.mesh, options))
-    context.info("hint: no source refines the wake: --wake length=2, or in scripts sources = { wake{ wall, length = 2 } }; members of a family have one");
+    context.info(
+        "hint: no source refines the wake: add --wake length=2, or in scripts sources = { wake{ wall, length = 2 } }; members of a family get this source "
+        "automatically");
 }
 
 /// Gives a hint, before the work, if the layers are too few to reach the size of tetrahedra and leave a jump on top. The hint contains the sufficient number.
 void hint_at_layers(const SurfaceValue& wall, const volmesh::MeshCase& options, const RunContext& context) {
   if (const auto thin = volmesh::thin_layers(wall.mesh, options))
     context.info(
-        fmt::format("hint: on {:.0f} % of the walls' area the last of {} layers stays thinner than a third of the tetrahedra on it: layers = {} reach it "
-                    "(sterna inspect tells where)",
+        fmt::format("hint: on {:.0f} % of the walls' area the last of {} layers is thinner than a third of the adjacent tetrahedra: layers = {} are sufficient "
+                    "(sterna inspect lists the locations)",
                     100.0 * thin->share, options.envelope.layers, thin->enough));
 }
 
@@ -515,7 +517,7 @@ StageContent read_stages(const InputPath& file, const RunContext& context) {
   StageContent result;
   if (content.surface && !content.envelope) result.surface = surface_of(std::move(*content.surface), {{file.name, io::hash_input(file.path)}}, context);
   if (content.envelope) {
-    if (content.manifest.empty()) refuse(file, "found an envelope, but not the options that made it");
+    if (content.manifest.empty()) refuse(file, "the file has an envelope, but not its options");
     const StageJson json(content.manifest, file);
     auto wall = std::make_shared<SurfaceValue>(*surface_of(std::move(*content.surface), json.inputs(), context));
     volmesh::MeshCase options;
@@ -558,8 +560,8 @@ void write_stage(const EnvelopeValue& envelope, const std::filesystem::path& pat
   if (envelope.step == volmesh::EnvelopeStep::classified)
     throw Error({.code = ErrorCode::bad_argument,
                  .attempted = "writing " + path.string(),
-                 .problem = "classes alone are not kept",
-                 .hint = "write the value of envelope.initial"});
+                 .problem = "a classification alone cannot be stored",
+                 .hint = "write the result of envelope.initial"});
   write_envelope(*envelope.wall, envelope.options, envelope.stage, path, context, envelope.step);
 }
 
@@ -572,7 +574,7 @@ void require_stage_output(const std::filesystem::path& path) {
   if (path.extension() != ".sterna")
     throw Error({.code = ErrorCode::bad_argument,
                  .attempted = "writing " + path.string(),
-                 .problem = "steps of a run are written to .sterna files only, not to \"" + path.extension().string() + "\""});
+                 .problem = "steps of a run can be written to .sterna files only, not to \"" + path.extension().string() + "\""});
   require_mesh_output(path);
 }
 
@@ -592,7 +594,7 @@ std::string describe_classes(const volmesh::Classification& classes) {
 std::string layers_text(const volmesh::MeshCase& options) {
   if (!options.patches.empty()) return "layers by patch";
   const int layers = volmesh::effective_options(options, RunContext()).envelope.layers;
-  return is_automatic(layers) ? "layers by the walls' edges" : fmt::format("{} layers", layers);
+  return is_automatic(layers) ? "layers by the edges of the walls" : fmt::format("{} layers", layers);
 }
 
 }  // namespace
@@ -609,7 +611,7 @@ std::string describe(const EnvelopeValue& envelope) {
 
 std::string describe(const TetrahedraValue& tetrahedra) {
   const volmesh::TetraResult& tets = tetrahedra.stage.tets;
-  return fmt::format("Tetrahedra: {} tetrahedra, {} points of their own, by {}, around a layer of {} columns",
+  return fmt::format("Tetrahedra: {} tetrahedra, {} new points, by {}, around a layer of {} columns",
                      count_text(static_cast<std::int64_t>(tets.tetrahedra.size())), count_text(static_cast<std::int64_t>(tets.new_points.size())), tets.engine,
                      count_text(static_cast<std::int64_t>(tetrahedra.stage.layers.layers.n_columns())));
 }

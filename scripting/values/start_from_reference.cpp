@@ -68,18 +68,18 @@ const KeptPart* find_like(const std::vector<KeptPart>& parts, const ModelStructu
 std::string difference_text(const std::vector<KeptPart>& parts, const std::string& name, const ModelStructure& structure) {
   for (const KeptPart& part : parts)
     if (part.name == name) return surfmesh::difference_of(part.mesh.structure, structure);
-  return "the reference has no part of that name";
+  return "the reference has no part with this name";
 }
 
 /// Returns a reason against taking over triangles, before any attempt; empty: none.
 std::string objection(const KeptPart& like, const PartTask& task) {
   surfmesh::SurfaceMeshOptions before = like.options, now = task.options;
   if (const std::string names = differing(sterna::options_of(before), sterna::options_of(now)); !names.empty())
-    return "options differ from the reference's: " + names;
-  if (KeyMaker("rules").add(like.patches).key() != KeyMaker("rules").add(task.patches).key()) return "rules of patches differ from the reference's";
-  if (like.has_sizes_by_place || task.has_sizes_by_place) return "sources and size functions ask for sizes where the part is now";
-  if (!task.options.periodic.empty()) return "borders of periodic sides are cut alike where they are now";
-  if (task.options.gap_cells > 0.0) return "gap_cells asks for sizes by what is near now";
+    return "options differ from those of the reference: " + names;
+  if (KeyMaker("rules").add(like.patches).key() != KeyMaker("rules").add(task.patches).key()) return "options of patches differ from those of the reference";
+  if (like.has_sizes_by_place || task.has_sizes_by_place) return "sources and size functions set edge lengths by the part's present position";
+  if (!task.options.periodic.empty()) return "borders of periodic sides need identical nodes at their present position";
+  if (task.options.gap_cells > 0.0) return "gap_cells sets edge lengths by the present neighbours";
   return {};
 }
 
@@ -88,7 +88,7 @@ surfmesh::SurfaceMesh mesh_from_reference(const PartTask& task, const Reuse& reu
   ReferenceUse& reference = *reuse.reference;
   const std::string what = "surface of " + part_name_of(task.model) + ": ";
   const auto anew = [&](const std::string& why) {
-    reference.tell(what + "meshed anew: " + why, reuse, context);
+    reference.tell(what + "meshed again: " + why, reuse, context);
     return ordinary(task, context);
   };
   const std::vector<KeptPart>& parts = reference.parts(context);
@@ -98,7 +98,7 @@ surfmesh::SurfaceMesh mesh_from_reference(const PartTask& task, const Reuse& reu
   const std::string against = objection(*like, task);
   Column<VertexId, Point> points = surfmesh::carried_points(like->mesh, task.model, structure, context);
   if (points_key(points) == like->geometry) {
-    if (!against.empty()) reference.tell(what + "meshed anew: " + against, reuse, context);
+    if (!against.empty()) reference.tell(what + "meshed again: " + against, reuse, context);
     return ordinary(task, context);  // the geometry is the reference's own
   }
   if (!against.empty()) return anew(against);
@@ -131,14 +131,14 @@ std::string envelope_of(const TriMesh& wall, ReferenceUse& reference) {
 const KeptEnvelope* find_start(const TriMesh& wall, volmesh::EnvelopeOptions options, const std::string& what, bool has_carried, const Reuse& reuse,
                                const RunContext& context) {
   const ContentKey connectivity = connectivity_of(wall);
-  std::string against = "the reference made none of a wall with these triangles";
+  std::string against = "the reference has no envelope of a wall with these triangles";
   for (const KeptEnvelope& kept : reuse.reference->envelopes(context)) {
     if (kept.wall != connectivity || kept.start.points.size() != wall.n_vertices()) continue;
     if (kept.start.points.raw() == wall.points.raw()) return nullptr;
     volmesh::EnvelopeOptions before = kept.options;
     const std::string names = differing(sterna::options_of(before), sterna::options_of(options), k_free_options);
     if (names.empty()) return &kept;
-    against = "options differ from the reference's: " + names;
+    against = "options differ from those of the reference: " + names;
   }
   if (has_carried) reuse.reference->tell(what + "made from scratch: " + against, reuse, context);
   return nullptr;
@@ -222,7 +222,7 @@ void tell_other_envelopes(const std::vector<volmesh::PlacedPart>& parts, const R
     CarriedPart* part = placed.own ? reuse.reference->carried(triangles_key(*placed.own)) : nullptr;
     if (part == nullptr || part->has_envelope) continue;
     part->has_envelope = true;
-    reuse.reference->tell("envelope of " + part->name + ": made from scratch: its layer is not made apart from what is around it", reuse, context);
+    reuse.reference->tell("envelope of " + part->name + ": made from scratch: its layer depends on adjacent parts", reuse, context);
   }
 }
 

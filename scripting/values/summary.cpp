@@ -77,8 +77,8 @@ std::string remedy_at(const GateResult& gate, const HybridMesh* mesh) {
   if (!mesh || !is_of_height || gate.places.empty()) return std::string(remedy_of(gate.measure));
   const std::string_view reason = lowered_at(*mesh, gate.places.front().position);
   if (reason.empty()) return "more layers, a larger max_growth, or shorter edges on the wall there";
-  return "the layer is squeezed there (" + std::string(reason) +
-         "): less refinement along the corner (surface_mesh: narrow = 20, where parts meet intersection_factor = 1), in a gap gap_cells, or truncate = "
+  return "the layer is compressed there (" + std::string(reason) +
+         "): less refinement along the corner (surface_mesh: narrow = 20; where parts meet, intersection_factor = 1); in a gap, gap_cells; or truncate = "
          "\"auto\"";
 }
 
@@ -212,20 +212,20 @@ std::string summary_text(const MeshValue& mesh, Consumers consumers) {
                       layer.body_length);
   if (const std::string regions = describe_regions(volume_regions(mesh.mesh)); !regions.empty()) text += "  regions     of fluid: " + regions + "\n";
   if (const volmesh::NeedleReport& needles = mesh.origin->needles; needles.n_needles > 0)
-    text += fmt::format("  needles     {} of the wall, {} left; {} edges flipped, {} -> {} triangles\n", count_text(needles.n_needles),
+    text += fmt::format("  needles     {} sliver triangles of the wall, {} left; {} edges flipped, {} -> {} triangles\n", count_text(needles.n_needles),
                         count_text(needles.n_left), count_text(needles.n_flips), count_text(needles.n_given), count_text(needles.n_triangles));
   if (mesh.origin->n_split_triangles > 0)
-    text += fmt::format("  splits      {} more triangles on wall and farfield, made for the tetrahedra\n", count_text(mesh.origin->n_split_triangles));
+    text += fmt::format("  splits      {} more triangles on wall and farfield, required by the tetrahedra\n", count_text(mesh.origin->n_split_triangles));
   if (has_layers)
-    text += fmt::format("  layer       {:.2f} % of the area at its full height along the normal, the geometry permits {:.2f} %; mean height {:.4g} m\n",
+    text += fmt::format("  layer       {:.2f} % of the area at full height along the normal, the geometry permits {:.2f} %; mean height {:.4g} m\n",
                         100.0 * layer.coverage, 100.0 * layer.attainable, layer.mean_height);
   for (const volmesh::PatchLayerReport& patch : layer.patches)
     if (patch.truncated > 0.0)
       text += fmt::format("  truncated   {:.2f} % of patch \"{}\", down to {}\n", 100.0 * patch.truncated, patch.name,
                           patch.least_layers == 1 ? "1 layer" : fmt::format("{} layers", patch.least_layers));
   if (layer.n_compressed > 0)
-    text += fmt::format("  compressed  {:.2f} % of the area, {} of {} vertices (too low for the first height that is asked for)\n",
-                        100.0 * layer.compressed_area, count_text(layer.n_compressed), count_text(layer.n_vertices));
+    text += fmt::format("  compressed  {:.2f} % of the area, {} of {} vertices (too low for the requested first height)\n", 100.0 * layer.compressed_area,
+                        count_text(layer.n_compressed), count_text(layer.n_vertices));
   if (!layer.collapsed.empty())
     text += fmt::format("  collapsed   {:.2f} % of the area, {}; first at {}: {}\n", 100.0 * layer.collapsed_area,
                         counted(static_cast<std::int64_t>(layer.collapsed.size()), "vertex", "vertices"), format_point(layer.collapsed.front().position),
@@ -256,7 +256,7 @@ std::string check_summary_text(const CheckReport& report, bool tells_troubles) {
 
 std::string measure_text(const MeshValue& mesh, const RunMeasure& measure) {
   const bool is_own = mesh.origin->tetra_engine == "sterna";
-  return fmt::format("  seconds     {:.2f} in all on {} threads: {:.2f} in {}, {:.2f} the rest; memory {:.0f} MB at most here, {:.0f} MB in the {}",
+  return fmt::format("  seconds     {:.2f} in total on {} threads: {:.2f} in {}, {:.2f} in other steps; peak memory {:.0f} MB here, {:.0f} MB in the {}",
                      measure.wall_seconds, measure.threads, mesh.origin->tetra_engine_seconds, is_own ? "the own engine" : mesh.origin->tetra_engine,
                      rest_seconds(mesh, measure), peak_memory_bytes() / k_bytes_per_mb, mesh.origin->tetra_engine_peak_bytes / k_bytes_per_mb,
                      is_own ? "engine's arrays" : "engine's process");

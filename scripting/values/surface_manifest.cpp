@@ -69,7 +69,7 @@ Json quality_json(const surfmesh::SurfaceMeshReport& report) {
 
 [[noreturn]] void refuse_manifest(const InputPath& file, const std::string& problem) {
   throw Error(
-      {.code = ErrorCode::file_malformed, .attempted = "reading " + file.name + ".json", .problem = problem, .hint = "delete it, or write the surface anew"});
+      {.code = ErrorCode::file_malformed, .attempted = "reading " + file.name + ".json", .problem = problem, .hint = "delete it, or write the surface again"});
 }
 
 /// Returns true if the normals point into the fluid: inwards in total.
@@ -104,7 +104,7 @@ std::map<std::string, PatchKind> kinds_of(const Json& json, const InputPath& fil
 std::vector<std::string> changes_of(const Json& json, const InputPath& file) {
   std::vector<std::string> changes;
   for (const Json& change : json.value("changes", Json::array())) {
-    if (!change.is_string()) refuse_manifest(file, "an entry of its changes is no text");
+    if (!change.is_string()) refuse_manifest(file, "an entry of its changes is not a string");
     changes.push_back(change.get<std::string>());
   }
   return changes;
@@ -159,15 +159,15 @@ std::optional<KnownSurface> read_surface_manifest(const InputPath& file, const s
   const Json json = Json::parse(std::string(std::istreambuf_iterator<char>(in), {}), nullptr, false);
   if (!json.is_object() || json.value("schema", Json()) != k_schema) return std::nullopt;  // a file of another program
   if (json.value("output_xxh3_128", Json()) != hash) {
-    context.warn(file.name + ".json is of another state of " + file.name +
-                 ": kinds of patches and rules for layers in it do not count. Write the surface anew, or delete it");
+    context.warn(file.name + ".json belongs to another version of " + file.name +
+                 ": its kinds of patches and layer options are ignored. Write the surface again, or delete the manifest");
     return std::nullopt;
   }
   const Json::json_pointer pointer("/quality/max_smooth_angle/degrees");
   std::optional<double> smooth_angle;
   if (json.contains("quality")) {
     if (!json.contains(pointer) || !json.at(pointer).is_number() || !(json.at(pointer).get<double>() >= 0.0 && json.at(pointer).get<double>() <= 180.0))
-      refuse_manifest(file, "its quality.max_smooth_angle.degrees is no angle");
+      refuse_manifest(file, "its quality.max_smooth_angle.degrees is not an angle");
     smooth_angle = json.at(pointer).get<double>() / k_degrees;
   }
   const Json::json_pointer inside("/mesh/encloses_fluid");

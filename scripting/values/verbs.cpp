@@ -54,7 +54,7 @@ void require_surface(const SurfaceSoup& soup, const InputPath& file, const surfm
                .attempted = "reading " + file.name + " as a surface",
                .problem = fmt::format("it is a volume mesh of {} cells; its boundary ({}) is more than a wall",
                                       count_text(static_cast<std::int64_t>(soup.n_cells)), names),
-               .hint = "the surface that it was made of is to be meshed. `sterna convert " + file.name +
+               .hint = "give the surface from which the mesh was made. `sterna convert " + file.name +
                        " boundary.stl --surface` writes its boundary; read_surface{ ..., take_boundary = true } or --take-boundary takes all of it"});
 }
 
@@ -156,7 +156,7 @@ MeshValue read_mesh(const InputPath& file, const RunContext& context, io::Incomp
   value.inputs.push_back({file.name, io::hash_input(file.path)});
   complete_from_manifest(value, file, value.inputs.back().hash, context);
   if (!value.unknown_kinds.empty() && count_cells(value.mesh).total() > 0)
-    context.warn("the kind of " + quoted_list(value.unknown_kinds) + " is not known and taken as wall: " + why_kinds_are_unknown(file));
+    context.warn("the kind of " + quoted_list(value.unknown_kinds) + " is unknown and taken as wall: " + why_kinds_are_unknown(file));
   return value;
 }
 
@@ -220,8 +220,8 @@ void write_surface(const SurfaceValue& surface, const std::filesystem::path& pat
   if (const std::string extension = path.extension().string(); (extension == ".stl" || extension == ".STL") && surface.mesh.patches.size() <= 1)  // binary
     if (const std::int64_t n = count_merged_by_rounding(surface.mesh); n > 0)
       context.warn(
-          fmt::format("{}: STL is single precision, which puts {} of {} vertices onto others: read again, the surface may be open or touch itself there. "
-                      ".obj, .ply and .off keep all digits",
+          fmt::format("{}: STL is single precision, which merges {} of {} vertices with others: after reading, the surface may be open or touch itself there. "
+                      "Use .obj, .ply or .off, which keep all digits",
                       path.string(), count_text(n), count_text(static_cast<std::int64_t>(surface.mesh.n_vertices()))));
   if (has_surface_manifest(surface)) write_surface_manifest(surface, path);
 }

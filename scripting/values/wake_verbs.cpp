@@ -30,33 +30,37 @@ struct Schema<scripting::SheetNumbers> {
   using O = scripting::SheetNumbers;
   static constexpr std::string_view stage = "wake_sheet";
   static constexpr std::array fields = {
-      Field<O>{.name = "wing", .member = &O::wing, .help = "patches behind whose trailing edges there is a sheet, a pattern as in patches"},
+      Field<O>{.name = "wing", .member = &O::wing, .help = "pattern of names of the wing's patches; the sheet starts at their trailing edges"},
       Field<O>{.name = "length",
                .member = &O::length,
                .min = 0.1,
                .max = 20.0,
-               .help = "of the sheet, in chords of the wing before it; a larger value takes more cells"},
-      Field<O>{
-          .name = "growth", .member = &O::growth, .min = 1.0, .max = 2.0, .help = "largest ratio of edges along the sheet; a larger value takes fewer cells"},
+               .help = "length of the sheet, in chords of the wing in front of it; larger values need more cells"},
+      Field<O>{.name = "growth",
+               .member = &O::growth,
+               .min = 1.0,
+               .max = 2.0,
+               .help = "largest ratio of successive edges along the sheet; larger values need fewer cells"},
       Field<O>{.name = "height_growth",
                .member = &O::height_growth,
                .min = 1.0,
                .max = 2.0,
-               .help = "largest ratio of first heights from row to row along the sheet, so that fewer layers are needed; 1: all layers go on to its end"},
+               .help = "largest ratio of first heights between successive rows along the sheet, which reduces the number of layers; 1: all layers continue to "
+                       "the end of the sheet"},
       Field<O>{.name = "alpha",
                .member = &O::alpha,
                .unit = Unit::radian,
                .min = -1.6,
                .max = 1.6,
-               .help = "angle of attack instead of a direction, as of su2_config and foam_case: the flow comes from below",
-               .automatic = "0 beside a beta"},
+               .help = "angle of attack instead of direction, positive for flow from below, as in su2_config and foam_case",
+               .automatic = "0 if beta is given"},
       Field<O>{.name = "beta",
                .member = &O::beta,
                .unit = Unit::radian,
                .min = -1.6,
                .max = 1.6,
-               .help = "sideslip, likewise: above zero the flow goes towards y > 0",
-               .automatic = "0 beside an alpha"},
+               .help = "sideslip angle instead of direction, positive for flow towards y > 0",
+               .automatic = "0 if alpha is given"},
   };
 };
 
@@ -81,10 +85,10 @@ WakeSheet sheet_of(const ScriptTable& table, const std::string& attempted) {
   reader.field("shape");
   refuse_items_beyond(reader, 0);
   if (const auto direction = read_point(reader, "direction")) wake.direction = *direction;
-  if (wake.direction && !(norm2(*wake.direction) > 0.0)) reader.add_problem("direction: has no length");
+  if (wake.direction && !(norm2(*wake.direction) > 0.0)) reader.add_problem("direction: the vector has zero length");
   reader.read_options(options);
   const bool has_angles = !is_automatic(numbers.alpha) || !is_automatic(numbers.beta);
-  if (has_angles && wake.direction) reader.add_problem("direction and alpha, beta say the same: one of them is enough");
+  if (has_angles && wake.direction) reader.add_problem("direction and alpha, beta exclude each other: give either");
   reader.finish();
   if (has_angles) wake.direction = stream_at(is_automatic(numbers.alpha) ? 0.0 : numbers.alpha, is_automatic(numbers.beta) ? 0.0 : numbers.beta);
   wake.wing = numbers.wing;
@@ -106,14 +110,13 @@ ScriptValue make_wake_sheet(const ScriptCall& call) {
 std::string wake_sheet_help() {
   SheetNumbers numbers;
   return options_help(sterna::options_of(numbers)) +
-         "direction = {x, y, z}: of the free stream, instead of alpha and beta; with none of them along the inflow in a tunnel, else along x\n";
+         "direction = {x, y, z}: direction of the free stream, instead of alpha and beta; default: along the inflow in a tunnel, otherwise along x\n";
 }
 
 constexpr std::array<ScriptVerb, 1> k_wake_verbs = {{
     {"wake_sheet", k_wake_sheet_usage,
-     "Experimental: a surface behind trailing edges on which the layers of both sides of a wing go on, for the wakes of volume_mesh. At the sides of a sheet "
-     "gates "
-     "fail that pass without it (docs/wake_sheets.md): compare both meshes.",
+     "Experimental: surface behind trailing edges that continues the layers of both sides of a wing, for the wakes of volume_mesh. Gates may fail at the sides "
+     "of a sheet that pass without it (docs/wake_sheets.md): compare both meshes.",
      make_wake_sheet, wake_sheet_help, false, "wake sheet"},
 }};
 
@@ -132,7 +135,8 @@ std::vector<WakeSheet> read_wakes(TableReader& reader, const ScriptCall& call) {
   for (const ShapeEntry& entry : read_shapes(reader, "wakes", k_wake_sheet_usage)) {
     if (entry.shape == "wake_sheet") wakes.push_back(sheet_of(*entry.table, call.attempted() + ", " + entry.where));
     else if (entry.shape == "wake")
-      reader.add_problem(entry.where + ": wake{ ... } is a source of short edges, for sources; a sheet with layers is " + std::string(k_wake_sheet_usage));
+      reader.add_problem(entry.where + ": wake{ ... } is a source of short edges, for the option sources; a wake sheet with layers is " +
+                         std::string(k_wake_sheet_usage));
     else reader.add_problem(entry.where + ": expected " + std::string(k_wake_sheet_usage) + ", not " + std::string(type_text(entry.value)));
   }
   return wakes;

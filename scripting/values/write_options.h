@@ -22,10 +22,8 @@ struct Schema<scripting::WriteOptions> {
   static constexpr std::array fields = {
       Field<O>{.name = "numbering",
                .member = &O::numbering,
-               .help =
-                   "of nodes and cells in the file: wall-normal lines and columns first, the rest behind them, as they are made; neighbours near each other; "
-                   "or both, lines whole in such an order; automatic: both for OpenFOAM, whose solvers take cells as they come, else lines. A .sterna file "
-                   "stays as it was made",
+               .help = "order of nodes and cells in the file. lines: wall-normal lines and columns first; bandwidth: neighbours near each other; both: whole "
+                       "lines, ordered by bandwidth; automatic: both for OpenFOAM, otherwise lines. .sterna files keep the order of the mesh",
                .choices = "automatic lines bandwidth both"},
   };
 };

@@ -52,8 +52,8 @@ struct Schema<scripting::BodyOptions> {
   using O = scripting::BodyOptions;
   static constexpr std::string_view stage = "component";
   static constexpr std::array fields = {
-      Field<O>{.name = "name", .member = &O::name, .help = "of component and patch; empty: the verb's"},
-      Field<O>{.name = "symmetric", .member = &O::symmetric, .help = "a mirror image stands on the other side of y = 0"},
+      Field<O>{.name = "name", .member = &O::name, .help = "name of the component and its patch; empty: the name of the verb"},
+      Field<O>{.name = "symmetric", .member = &O::symmetric, .help = "add a mirror image on the other side of y = 0"},
   };
 };
 template <>
@@ -61,16 +61,24 @@ struct Schema<scripting::FuselageOptions> {
   using O = scripting::FuselageOptions;
   static constexpr std::string_view stage = "fuselage";
   static constexpr std::array fields = {
-      Field<O>{
-          .name = "along",
-          .member = &O::along,
-          .help = "between frames: monotone (smooth, never beyond the frames), smooth (Bessel, sumo's), akima (sumo's, straight parts stay straight), linear",
-          .choices = "monotone smooth akima linear"},
-      Field<O>{.name = "nose", .member = &O::nose, .help = "end before the first frame, where that is no point", .choices = "round flat"},
-      Field<O>{.name = "nose_height", .member = &O::nose_height, .min = 0.01, .max = 20.0, .help = "of a round nose, of the mean radius of the first frame"},
-      Field<O>{.name = "tail", .member = &O::tail, .help = "end behind the last frame", .choices = "round flat"},
-      Field<O>{.name = "tail_height", .member = &O::tail_height, .min = 0.01, .max = 20.0, .help = "of a round tail, of the mean radius of the last frame"},
-      Field<O>{.name = "pitch", .member = &O::pitch, .unit = Unit::radian, .min = -1.6, .max = 1.6, .help = "nose up, about the position"},
+      Field<O>{.name = "along",
+               .member = &O::along,
+               .help = "interpolation between frames: monotone (smooth, without overshoot), smooth (Bessel, as sumo), akima (as sumo, keeps straight parts "
+                       "straight), linear",
+               .choices = "monotone smooth akima linear"},
+      Field<O>{.name = "nose", .member = &O::nose, .help = "shape of the end before the first frame, if that frame is not a point", .choices = "round flat"},
+      Field<O>{.name = "nose_height",
+               .member = &O::nose_height,
+               .min = 0.01,
+               .max = 20.0,
+               .help = "height of a round nose, relative to the mean radius of the first frame"},
+      Field<O>{.name = "tail", .member = &O::tail, .help = "shape of the end behind the last frame, if that frame is not a point", .choices = "round flat"},
+      Field<O>{.name = "tail_height",
+               .member = &O::tail_height,
+               .min = 0.01,
+               .max = 20.0,
+               .help = "height of a round tail, relative to the mean radius of the last frame"},
+      Field<O>{.name = "pitch", .member = &O::pitch, .unit = Unit::radian, .min = -1.6, .max = 1.6, .help = "rotation about the position, nose up"},
   };
 };
 template <>
@@ -78,25 +86,25 @@ struct Schema<scripting::FrameOptions> {
   using O = scripting::FrameOptions;
   static constexpr std::string_view stage = "frame";
   static constexpr std::array fields = {
-      Field<O>{.name = "x", .member = &O::x, .unit = Unit::metre, .help = "of its plane", .required = true},
-      Field<O>{.name = "y", .member = &O::y, .unit = Unit::metre, .help = "of its middle"},
-      Field<O>{.name = "z", .member = &O::z, .unit = Unit::metre, .help = "of its middle"},
+      Field<O>{.name = "x", .member = &O::x, .unit = Unit::metre, .help = "x of the frame's plane", .required = true},
+      Field<O>{.name = "y", .member = &O::y, .unit = Unit::metre, .help = "coordinate of the frame's centre"},
+      Field<O>{.name = "z", .member = &O::z, .unit = Unit::metre, .help = "coordinate of the frame's centre"},
       Field<O>{.name = "diameter",
                .member = &O::diameter,
                .unit = Unit::metre,
                .min = 0.0,
-               .help = "of a circle; 0 = a point, at the ends only",
-               .automatic = "width and height"},
-      Field<O>{.name = "width", .member = &O::width, .unit = Unit::metre, .min = 0.0, .help = "along y", .automatic = "the height"},
-      Field<O>{.name = "height", .member = &O::height, .unit = Unit::metre, .min = 0.0, .help = "along z", .automatic = "the width"},
+               .help = "diameter of a circular frame; 0 = a point, at the ends only",
+               .automatic = "from width and height"},
+      Field<O>{.name = "width", .member = &O::width, .unit = Unit::metre, .min = 0.0, .help = "width along y", .automatic = "the height"},
+      Field<O>{.name = "height", .member = &O::height, .unit = Unit::metre, .min = 0.0, .help = "height along z", .automatic = "the width"},
       Field<O>{.name = "shape",
                .member = &O::shape,
-               .help = "of the section; points: a list of its own",
+               .help = "shape of the section; points: a custom list of points",
                .choices = "ellipse circle superellipse double_ellipse egg isikveren points"},
-      Field<O>{.name = "exponent", .member = &O::exponent, .min = 0.5, .max = 20.0, .help = "of a superellipse: |y|^n + |z|^n = 1; 2 = ellipse"},
+      Field<O>{.name = "exponent", .member = &O::exponent, .min = 0.5, .max = 20.0, .help = "exponent n of a superellipse: |y|^n + |z|^n = 1; 2 = ellipse"},
       Field<O>{
-          .name = "offset", .member = &O::offset, .min = -0.95, .max = 0.95, .help = "of a double ellipse: how high its widest place is, of the half height"},
-      Field<O>{.name = "distortion", .member = &O::distortion, .min = -0.95, .max = 0.95, .help = "of Huegelschaeffer's egg"},
+          .name = "offset", .member = &O::offset, .min = -0.95, .max = 0.95, .help = "height at which a double ellipse is widest, relative to half its height"},
+      Field<O>{.name = "distortion", .member = &O::distortion, .min = -0.95, .max = 0.95, .help = "distortion of Huegelschaeffer's egg"},
   };
 };
 template <>
@@ -104,8 +112,8 @@ struct Schema<scripting::NacellePatches> {
   using O = scripting::NacellePatches;
   static constexpr std::string_view stage = "nacelle_patches";
   static constexpr std::array fields = {
-      Field<O>{.name = "intake", .member = &O::intake, .help = "name of the fan face's patch; empty: the nacelle's"},
-      Field<O>{.name = "exhaust", .member = &O::exhaust, .help = "name of the nozzle's patch; empty: the nacelle's"},
+      Field<O>{.name = "intake", .member = &O::intake, .help = "name of the fan face's patch; empty: the nacelle's patch"},
+      Field<O>{.name = "exhaust", .member = &O::exhaust, .help = "name of the nozzle's patch; empty: the nacelle's patch"},
   };
 };
 template <>
@@ -113,7 +121,7 @@ struct Schema<scripting::RevolutionOptions> {
   using O = scripting::RevolutionOptions;
   static constexpr std::string_view stage = "revolution";
   static constexpr std::array fields = {
-      Field<O>{.name = "straight", .member = &O::straight, .help = "straight between the points of the profile; else smooth"},
+      Field<O>{.name = "straight", .member = &O::straight, .help = "connect the points of the profile by straight lines; otherwise by a smooth curve"},
   };
 };
 
@@ -188,7 +196,7 @@ std::optional<BodyFrame> frame_of(const ScriptValue& value, const std::string& w
       isikveren[name] = given.value_or(0.0);
     }
   if (!is_automatic(o.diameter) && !(is_automatic(o.width) && is_automatic(o.height)))
-    reader.add_problem("diameter, width and height: give the diameter, or the others");
+    reader.add_problem("diameter, width and height: give either the diameter or width and height");
   if (points) {
     const auto rows = rows_of(*points, 2);
     if (!rows) reader.add_problem("points: expected a list {{y, z}, ...} of the right half, from the bottom to the top");
@@ -240,7 +248,7 @@ ScriptValue make_fuselage_verb(const ScriptCall& call) {
       if (auto frame = frame_of((*list)->items[i], "frame " + std::to_string(i + 1), t.reader)) body.frames.push_back(std::move(*frame));
   for (std::size_t i = 1; i < body.frames.size(); ++i)
     if (!(body.frames[i].center.x > body.frames[i - 1].center.x))
-      t.reader.add_problem("frames: '" + body.frames[i].name + "' does not stand behind '" + body.frames[i - 1].name + "'; x must ascend");
+      t.reader.add_problem("frames: '" + body.frames[i].name + "' is not behind '" + body.frames[i - 1].name + "'; x must increase");
   t.reader.finish();
   body.placement.rotation.y = o.pitch;
   body.tangents = o.along == "monotone" ? BodyTangents::monotone
@@ -326,7 +334,7 @@ ScriptValue make_revolution_verb(const ScriptCall& call) {
   t.reader.read_options(schema);
   const ScriptValue* profile = t.reader.field("profile");
   const auto rows = profile ? rows_of(*profile, 2) : std::nullopt;
-  if (!rows) t.reader.add_problem("profile: needs a list {{x, radius}, ...}, from the nose on");
+  if (!rows) t.reader.add_problem("profile: needs a list {{x, radius}, ...}, from nose to tail");
   t.reader.finish();
   std::vector<Uv> points;
   for (const std::vector<double>& row : *rows) points.push_back({row[0], row[1]});
@@ -350,8 +358,8 @@ ScriptValue make_fairing_verb(const ScriptCall& call) {
 
 namespace {
 
-constexpr const char* k_ends_help = "  from = {x, y, z}, to = {x, y, z}\n      required: its ends\n";
-constexpr const char* k_position_help = "  position = {x, y, z}\n      of the whole; {0, 0, 0}\n";
+constexpr const char* k_ends_help = "  from = {x, y, z}, to = {x, y, z}\n      required: the ends of the axis\n";
+constexpr const char* k_position_help = "  position = {x, y, z}\n      position of the whole component; {0, 0, 0}\n";
 
 template <class... Options>
 std::string body_help_of() {
@@ -365,9 +373,9 @@ std::string body_help_of() {
 
 std::string fuselage_help() {
   return body_help_of<BodyOptions, FuselageOptions>() + k_position_help +
-         "  frames = { {...}, {...} }\n      required: two at least, from the nose to the tail\neach frame:\n" + body_help_of<FrameOptions>() +
-         "  points = {{y, z}, ...}\n      of the shape \"points\": the right half from the bottom to the top\n  zp, a0, a1, b1\n      of the shape "
-         "\"isikveren\", numbers\n";
+         "  frames = { {...}, {...} }\n      required: at least two, from the nose to the tail\neach frame:\n" + body_help_of<FrameOptions>() +
+         "  points = {{y, z}, ...}\n      points of the right half from the bottom to the top, for the shape \"points\"\n  zp, a0, a1, b1\n      numbers, for "
+         "the shape \"isikveren\"\n";
 }
 std::string nacelle_help() { return body_help_of<BodyOptions, NacelleOptions, NacellePatches>() + k_position_help; }
 std::string pylon_help() { return body_help_of<PylonOptions>(); }
@@ -375,7 +383,7 @@ std::string boom_help() { return body_help_of<BodyOptions, BoomOptions>() + k_en
 std::string sting_help() { return body_help_of<BodyOptions, StingOptions>() + k_ends_help; }
 std::string fairing_help() { return body_help_of<BodyOptions, FairingOptions>() + k_position_help; }
 std::string revolution_help() {
-  return body_help_of<BodyOptions, RevolutionOptions>() + k_position_help + "  profile = {{x, radius}, ...}\n      required: from the nose on\n";
+  return body_help_of<BodyOptions, RevolutionOptions>() + k_position_help + "  profile = {{x, radius}, ...}\n      required: points from nose to tail\n";
 }
 
 }  // namespace sterna::scripting

@@ -22,8 +22,9 @@ std::string take_wing(const std::vector<WingReference>& wings, const std::string
     if (name.empty() ? !chosen || wing.area > chosen->area : wing.name == name) chosen = &wing;
   }
   if (!chosen)
-    return wings.empty() ? "reference: no reference data of wings" + (why_none.empty() ? std::string() : ": " + why_none) + "; give reference_area"
-                         : "wing: there is no wing \"" + name + "\" (" + names + ")";
+    return wings.empty()
+               ? "reference: the model has no reference data of wings" + (why_none.empty() ? std::string() : ": " + why_none) + "; give reference_area"
+               : "wing: there is no wing \"" + name + "\" (" + names + ")";
   reference.area = chosen->area;
   reference.length = chosen->mean_aerodynamic_chord;
   reference.moment_origin = chosen->aerodynamic_chord_start + Vec3{0.25 * chosen->mean_aerodynamic_chord, 0.0, 0.0};
@@ -69,8 +70,8 @@ CaseReference reference_of_model(const std::string& file, const CaseOptions& opt
   if (!is_model_file(file))
     throw Error({.code = ErrorCode::bad_argument,
                  .attempted = attempted,
-                 .problem = "it is no model",
-                 .hint = "sumo and CPACS files describe wings; else give reference_area and reference_length"});
+                 .problem = "the file is not a model",
+                 .hint = "give a sumo or CPACS file, which describes wings, or reference_area and reference_length"});
   const ModelReport report = measure_model(read_model({file, file}, {}, context), context);
   CaseReference reference;
   if (const std::string problem = take_wing(report.wings, options.wing, report.no_wings, reference); !problem.empty())
@@ -84,15 +85,15 @@ std::vector<CaseKind> read_case_kinds(TableReader& reader) {
   if (!value) return kinds;
   const auto* table = std::get_if<TableHandle>(value);
   if (!table || !(*table)->items.empty() || !(*table)->other_keys.empty()) {
-    reader.add_problem("kinds: expected a table by names of patches, { [\"top*\"] = \"slip\" }" +
-                       (table ? "; its keys are texts" : ", not " + std::string(type_text(*value))));
+    reader.add_problem("kinds: expected a table with names of patches as keys, { [\"top*\"] = \"slip\" }" +
+                       (table ? "; the keys are strings" : ", not " + std::string(type_text(*value))));
     return kinds;
   }
   for (const auto& [names, entry] : (*table)->fields) {
     const std::string where = "kinds[\"" + names + "\"]";
     const auto* kind = std::get_if<std::string>(&entry);
     if (!kind) {
-      reader.add_problem(where + ": expected a kind of patches, like \"slip\", not " + std::string(type_text(entry)));
+      reader.add_problem(where + ": expected a kind of patch, such as \"slip\", not " + std::string(type_text(entry)));
       continue;
     }
     try {
@@ -110,7 +111,7 @@ CaseBoundaries read_case_boundaries(TableReader& reader) {
   if (!value) return boundaries;
   const auto* table = std::get_if<TableHandle>(value);
   if (!table || !(*table)->items.empty()) {
-    reader.add_problem("boundaries: expected a table by names of patches, { prop = { thrust = 800 } }");
+    reader.add_problem("boundaries: expected a table with names of patches as keys, { prop = { thrust = 800 } }");
     return boundaries;
   }
   for (const auto& [name, entry] : (*table)->fields) {
@@ -134,12 +135,12 @@ std::string solver_case_help() {
   CaseOptions options;
   CaseBoundary boundary;
   volmesh::FlowConditions conditions;
-  return options_help(sterna::options_of(options)) + "the flow, by name or as the second entry, flow{...}:\n" + options_help(flow_options(conditions)) +
-         "reference = aircraft or wing: reference area, length and moment_origin (its quarter-chord point); moment_origin = {x, y, z}\nboundaries = { "
-         "[\"prop\"] = { ... } }, by names of inflows, outflows and actuator discs:\n" +
+  return options_help(sterna::options_of(options)) + "flow conditions, by name or as the second entry, flow{...}:\n" + options_help(flow_options(conditions)) +
+         "reference = aircraft or wing: source of reference area, length and moment_origin (quarter-chord point); moment_origin = {x, y, z}\nboundaries = { "
+         "[\"prop\"] = { ... } }, with names of inflows, outflows and actuator discs as keys:\n" +
          options_help(sterna::options_of(boundary)) +
-         "kinds = { [\"top*\"] = \"slip\" }, by patterns of names of patches: what they are to the solver (wall, slip, symmetry, inflow, outflow, farfield), "
-         "whatever they were when the mesh was made\n";
+         "kinds = { [\"top*\"] = \"slip\" }, with patterns of patch names as keys: kinds of patches for the solver (wall, slip, symmetry, inflow, outflow, "
+         "farfield), instead of those in the mesh\n";
 }
 
 }  // namespace sterna::scripting

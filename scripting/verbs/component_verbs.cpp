@@ -29,8 +29,8 @@ struct Schema<scripting::AircraftOptions> {
   using O = scripting::AircraftOptions;
   static constexpr std::string_view stage = "aircraft";
   static constexpr std::array fields = {
-      Field<O>{.name = "name", .member = &O::name, .help = "of the whole"},
-      Field<O>{.name = "unite", .member = &O::unite, .help = "make one closed surface of all components; else they stand side by side"},
+      Field<O>{.name = "name", .member = &O::name, .help = "name of the aircraft"},
+      Field<O>{.name = "unite", .member = &O::unite, .help = "unite all components to one closed surface; otherwise they stay separate"},
   };
 };
 
@@ -107,12 +107,12 @@ ScriptValue move_component(const ScriptCall& call) {
 ScriptValue point_on_wing(const ScriptCall& call) {
   const ComponentHandle& component = self<ComponentHandle>(call);
   const auto* wing = std::get_if<Wing>(&component->shape);
-  if (!wing) reject(call, "is for wings, not for " + std::string(component->type_text()));
+  if (!wing) reject(call, "applies to wings, not to " + std::string(component->type_text()));
   const auto span = call.arguments.size() > 1 ? number_of(call.arguments[1]) : std::nullopt,
              chord = call.arguments.size() > 2 ? number_of(call.arguments[2]) : std::nullopt;
   if (call.arguments.size() != 3 || !span || !chord)
-    reject(call, "takes two numbers: part of the span (0 root, 1 tip), part of the chord (0 leading edge, 1 trailing edge)", "wing:at(0.4, 0.25)");
-  if (*span < 0.0 || *span > 1.0) reject(call, fmt::format("part {:g} of the span is beyond the wing, which reaches from 0 to 1", *span));
+    reject(call, "takes two numbers: fraction of the span (0 root, 1 tip), fraction of the chord (0 leading edge, 1 trailing edge)", "wing:at(0.4, 0.25)");
+  if (*span < 0.0 || *span > 1.0) reject(call, fmt::format("fraction {:g} of the span is outside the wing, which reaches from 0 to 1", *span));
   struct Line {
     Point leading, trailing;
   };
@@ -165,32 +165,32 @@ ScriptValue component_field(const ScriptCall& call) {
 }
 
 constexpr std::array<ScriptVerb, 9> k_component_verbs = {{
-    {"fuselage", k_fuselage_usage, "A body through frames: circles, superellipses, double ellipses, eggs, points.", make_fuselage_verb, fuselage_help, false,
-     "component"},
-    {"wing", k_wing_usage, "A wing, tail or fin through sections from the root to the tip.", make_wing_verb, wing_help, false, "component"},
-    {"nacelle", k_nacelle_usage, "A nacelle with inlet lip, fan face and nozzle; its front stands at `position`.", make_nacelle_verb, nacelle_help, false,
-     "component"},
-    {"pylon", k_pylon_usage, "A pylon between a wing and a body under or over it; a mirror image stands where the body has one.", make_pylon_verb, pylon_help,
+    {"fuselage", k_fuselage_usage, "Makes a body through frames: circles, superellipses, double ellipses, eggs, points.", make_fuselage_verb, fuselage_help,
      false, "component"},
-    {"boom", k_boom_usage, "A round rod from a point to another.", make_boom_verb, boom_help, false, "component"},
-    {"fairing", k_fairing_usage, "A smooth bulge: an ellipsoid along x with superelliptic sections.", make_fairing_verb, fairing_help, false, "component"},
-    {"body_of_revolution", k_revolution_usage, "A body around the x axis through a profile of radii.", make_revolution_verb, revolution_help, false,
+    {"wing", k_wing_usage, "Makes a wing, tail or fin through sections from the root to the tip.", make_wing_verb, wing_help, false, "component"},
+    {"nacelle", k_nacelle_usage, "Makes a nacelle with inlet lip, fan face and nozzle; `position` is the centre of its front.", make_nacelle_verb, nacelle_help,
+     false, "component"},
+    {"pylon", k_pylon_usage, "Makes a pylon between a wing and a body below or above the wing; the pylon has a mirror image if the body has one.",
+     make_pylon_verb, pylon_help, false, "component"},
+    {"boom", k_boom_usage, "Makes a round rod from one point to another.", make_boom_verb, boom_help, false, "component"},
+    {"fairing", k_fairing_usage, "Makes a smooth bulge: an ellipsoid along x with superelliptic sections.", make_fairing_verb, fairing_help, false,
      "component"},
-    {"sting", k_sting_usage, "What holds a model in a wind tunnel: a rod with flat ends, from within the model to outside.", make_sting_verb, sting_help, false,
-     "component"},
-    {"aircraft", k_aircraft_usage, "Components and models together, mirror images included, united to one closed surface.", make_aircraft_verb, aircraft_help,
-     true, "model", true},
+    {"body_of_revolution", k_revolution_usage, "Makes a body of revolution around the x axis through a profile of radii.", make_revolution_verb,
+     revolution_help, false, "component"},
+    {"sting", k_sting_usage, "Makes the support of a model in a wind tunnel: a rod with flat ends, from the inside of the model to the outside.",
+     make_sting_verb, sting_help, false, "component"},
+    {"aircraft", k_aircraft_usage, "Makes a model of components and models, with mirror images, united to one closed surface.", make_aircraft_verb,
+     aircraft_help, true, "model", true},
 }};
 constexpr std::array<ScriptVerb, 5> k_component_methods = {{
     {"wing:deflect", k_deflect_usage,
-     "Deflects a control surface, as geometry: its hinge by parts of the span from the root and of the chord from the leading edge.", deflect_wing,
-     deflect_help, false, "self"},
-    {"wing:control", k_control_usage, "Gives the place of a control surface a patch of its own, without deflecting it.", control_wing, control_help, false,
-     "self"},
-    {"component:at", "main_wing:at(0.4, 0.25)", "Point of a wing's chord line, by parts of the span from the root and of the chord from the leading edge.",
-     point_on_wing},
-    {"component:move", "body:move{ 0.5, 0, 0 }", "Moves the component itself, metres.", move_component, nullptr, false, "self"},
-    {"component:model", "main_wing:model()", "The component alone, as a model, with its mirror image.", component_model, nullptr, false, "model"},
+     "Deflects a control surface geometrically. The hinge is given by fractions of the span from the root and of the chord from the leading edge.",
+     deflect_wing, deflect_help, false, "self"},
+    {"wing:control", k_control_usage, "Gives a control surface a separate patch, without deflecting it.", control_wing, control_help, false, "self"},
+    {"component:at", "main_wing:at(0.4, 0.25)",
+     "Returns a point of a wing's chord line, given by fractions of the span from the root and of the chord from the leading edge.", point_on_wing},
+    {"component:move", "body:move{ 0.5, 0, 0 }", "Moves the component in place, by metres.", move_component, nullptr, false, "self"},
+    {"component:model", "main_wing:model()", "Makes a model of this component alone, with its mirror image.", component_model, nullptr, false, "model"},
 }};
 
 }  // namespace

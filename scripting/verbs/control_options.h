@@ -38,11 +38,11 @@ struct Schema<scripting::ControlOptions> {
   static constexpr std::array fields = {
       Field<O>{.name = "kind",
                .member = &O::kind,
-               .help = "what moves: behind the hinge, before it, all of the chord",
+               .help = "part that moves: the chord behind the hinge, the chord in front of the hinge, or the whole chord",
                .choices = "trailing_edge leading_edge all_moving"},
       Field<O>{.name = "other_side",
                .member = &O::other_side,
-               .help = "what the image on the wing's other half does: flaps the same, ailerons the opposite",
+               .help = "deflection on the other half of the wing: same for flaps, opposite for ailerons",
                .choices = "same opposite none"},
   };
 };
@@ -56,15 +56,15 @@ struct Schema<scripting::DeflectOptions> {
                .unit = Unit::radian,
                .min = -1.0471975511965976,
                .max = 1.0471975511965976,
-               .help = "trailing edge down; leading edge flaps: leading edge down; all-moving: nose up",
+               .help = "deflection, positive with the trailing edge down; leading edge flaps: leading edge down; all-moving surfaces: nose up",
                .required = true},
-      Field<O>{.name = "gap", .member = &O::gap, .help = "sealed: the skin bends; open: a part of its own behind a slot", .choices = "sealed open"},
+      Field<O>{.name = "gap", .member = &O::gap, .help = "sealed: the skin bends; open: a separate part behind a slot", .choices = "sealed open"},
       Field<O>{.name = "fairing",
                .member = &O::fairing,
                .unit = Unit::metre,
                .min = 1e-9,
-               .help = "sealed: along the span over which it returns to the wing beside its ends",
-               .automatic = "a tenth of the mean chord at its ends"},
+               .help = "for gap = \"sealed\": spanwise length beside the ends over which the deflection fades to zero",
+               .automatic = "a tenth of the mean chord at the ends of the control surface"},
   };
 };
 

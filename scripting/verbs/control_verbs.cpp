@@ -17,7 +17,7 @@ ScriptValue change_wing(const ScriptCall& call, bool is_deflected) {
   const std::string_view usage = is_deflected ? k_deflect_usage : k_control_usage;
   const ComponentHandle& component = self<ComponentHandle>(call);
   const auto* wing = std::get_if<Wing>(&component->shape);
-  if (!wing) reject(call, "is for wings, not for " + std::string(component->type_text()));
+  if (!wing) reject(call, "applies to wings, not to " + std::string(component->type_text()));
   const ScriptTable table = table_argument(call, 1, usage);
   ControlOptions control;
   DeflectOptions deflect;
@@ -30,22 +30,22 @@ ScriptValue change_wing(const ScriptCall& call, bool is_deflected) {
   else d.surface.name = *name;
   if (name && std::any_of(component->deflections.begin(), component->deflections.end(), [&](const Deflection& other) { return other.surface.name == *name; }))
     reader.add_problem("this wing has a control surface \"" + *name + "\" already");
-  constexpr std::string_view k_pair = "{part of the span from the root, part of the chord}";
+  constexpr std::string_view k_pair = "{fraction of the span from the root, fraction of the chord}";
   const auto from = read_pair(reader, "from", k_pair), to = read_pair(reader, "to", k_pair);
   const ScriptValue* hinge = reader.field("hinge");
   const auto rows = hinge ? rows_of(*hinge, 2) : std::nullopt;
-  if (hinge && !rows) reader.add_problem("hinge: expected a list of places {{span, chord}, ...}");
+  if (hinge && !rows) reader.add_problem("hinge: expected a list of points {{span, chord}, ...}");
   const bool has_both = table.fields.contains("from") && table.fields.contains("to"), has_any = table.fields.contains("from") || table.fields.contains("to");
   if (hinge ? has_any : !has_both) reader.add_problem("needs from and to, or hinge = {{span, chord}, ...}: " + std::string(usage));
   const auto require_within = [&](const std::string& what, double span, double chord) {
     if (!(span >= 0.0 && span <= 1.0))
-      reader.add_problem(what + fmt::format(": {:g} is beyond the wing: parts of its span are 0 at the root to 1 at the tip", span));
+      reader.add_problem(what + fmt::format(": {:g} is outside the wing: fractions of its span are 0 at the root to 1 at the tip", span));
     if (!(chord >= 0.0 && chord <= 1.0))
-      reader.add_problem(what + fmt::format(": {:g} is beyond the chord: its parts are 0 at the leading edge to 1 at the trailing edge", chord));
+      reader.add_problem(what + fmt::format(": {:g} is outside the chord: its fractions are 0 at the leading edge to 1 at the trailing edge", chord));
   };
   if (from) require_within("from", (*from)[0], (*from)[1]);
   if (to) require_within("to", (*to)[0], (*to)[1]);
-  if (from && to && (*from)[0] == (*to)[0]) reader.add_problem("from and to are at the same place along the span");
+  if (from && to && (*from)[0] == (*to)[0]) reader.add_problem("from and to are at the same fraction of the span");
   if (rows)
     for (const std::vector<double>& row : *rows) require_within("hinge", row[0], row[1]);
   reader.read_options(control_schema);
@@ -88,7 +88,8 @@ OtherSide other_side_of(const std::string& choice) { return choice == "none" ? O
 std::vector<ControlSetting> read_control_settings(const ScriptTable& table, const std::string& where, TableReader& reader) {
   std::vector<ControlSetting> settings;
   if (!table.items.empty() || !table.other_keys.empty() || table.fields.empty())
-    reader.add_problem(where + ": expected angles by names of control surfaces, { Elevator = 5*deg, [\"Flap*\"] = { angle = 20*deg } }");
+    reader.add_problem(
+        where + ": expected a table with names of control surfaces as keys and angles as values, { Elevator = 5*deg, [\"Flap*\"] = { angle = 20*deg } }");
   for (const auto& [names, value] : table.fields) {
     const std::string entry = where + "[\"" + names + "\"]";
     DeflectOptions deflect;
@@ -116,9 +117,8 @@ std::vector<ControlSetting> read_control_settings(const ScriptTable& table, cons
 std::string control_settings_help() {
   DeflectOptions deflect;
   ControlOptions control;
-  return "deflections = { Elevator = 5*deg, [\"Flap*\"] = { angle = 20*deg } }: turns control surfaces (or, of sumo, controls) that the file describes; an "
-         "angle, "
-         "or a table of:\n" +
+  return "deflections = { Elevator = 5*deg, [\"Flap*\"] = { angle = 20*deg } }: deflects control surfaces (in sumo files: controls) that the file describes; "
+         "each by an angle, or by a table of:\n" +
          options_help(setting_options(deflect, control));
 }
 
@@ -128,8 +128,9 @@ ScriptValue control_wing(const ScriptCall& call) { return change_wing(call, fals
 std::string control_help() {
   ControlOptions control;
   return options_help(sterna::options_of(control)) +
-         "  from = {span, chord}, to = {span, chord}\n      ends of the hinge: part of the span from the root, part of the chord from the leading edge\n" +
-         "  hinge = {{span, chord}, ...}\n      in place of from and to: a hinge of several straight pieces\n";
+         "  from = {span, chord}, to = {span, chord}\n      ends of the hinge: fraction of the span from the root, fraction of the chord from the leading "
+         "edge\n" +
+         "  hinge = {{span, chord}, ...}\n      instead of from and to: a hinge of several straight pieces\n";
 }
 std::string deflect_help() {
   DeflectOptions deflect;

@@ -37,8 +37,8 @@ void write_bytes(const std::string& png, const DrawOptions& options, const std::
 
 CLI::App* add_draw_arguments(CLI::App& app, DrawCommand& draw) {
   CLI::App* command =
-      app.add_subcommand("draw", "a picture of a surface or volume mesh as PNG: walls, cells along a plane, quality by colour; needs no display");
-  command->add_option("mesh", draw.input, "surface or mesh file. `sterna formats` lists what is read")->required();
+      app.add_subcommand("draw", "draw a surface or volume mesh as a PNG picture: walls, cells along a plane, colours by quality; needs no display");
+  command->add_option("mesh", draw.input, "surface or mesh file. `sterna formats` lists the formats")->required();
   command->add_option("-o,--output", draw.output, "picture.png")->required();
   DrawOptions options;
   add_schema_options(*command, sterna::options_of(options), draw.options);
@@ -55,8 +55,8 @@ std::variant<TriMesh, HybridMesh> read_drawable(const InputPath& input, double u
   if (is_model_file(input.path))
     throw Error({.code = ErrorCode::bad_argument,
                  .attempted = "drawing " + input.name,
-                 .problem = "it is a model, which has no mesh yet",
-                 .hint = "`sterna surface " + input.name + " -o wall.vtu` meshes its faces; draw what that writes"});
+                 .problem = "the file is a model, which has no mesh yet",
+                 .hint = "`sterna surface " + input.name + " -o wall.vtu` meshes its faces; then draw wall.vtu"});
   if (io::format_of(input.path).read_volume) {
     HybridMesh mesh = read_mesh(input, context).mesh;
     for (Point& p : mesh.points) p *= unit;
@@ -85,8 +85,9 @@ void write_picture(const HybridMesh& mesh, const CheckReport* report, const Draw
 
 void write_picture(const TriMesh& surface, const DrawOptions& options, std::string_view name, const std::filesystem::path& path, const RunContext& context) {
   if (options.places)
-    throw Error(
-        {.code = ErrorCode::bad_argument, .attempted = "draw: option places", .problem = "the worst places are those of a volume mesh; this is a surface"});
+    throw Error({.code = ErrorCode::bad_argument,
+                 .attempted = "draw: option places",
+                 .problem = "the worst locations exist for volume meshes only; this file is a surface"});
   write_bytes(draw_png(surface, options, name, {}, context.part("draw", k_check_end, 1.0)), options, path, context);
 }
 

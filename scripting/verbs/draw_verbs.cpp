@@ -53,7 +53,7 @@ ScriptTable with_texts(const ScriptCall& call, ScriptTable table) {
   };
   constexpr std::array<Entry, 3> k_entries = {
       {{"cut", cut_text, "cut = \"leading edge\", { x = 1.2 } or { point = {0, 0, 0}, normal = {0, 1, 0} }"},
-       {"focus", focus_text, "focus = { {1, 2, 0}, radius = 0.5 } or the name of a place"},
+       {"focus", focus_text, "focus = { {1, 2, 0}, radius = 0.5 } or the name of a location"},
        {"view", view_text, "view = \"iso\", { 225, 30 } (azimuth, elevation) or { -1, -1, 0.5 } (from the mesh to the eye)"}}};
   for (const Entry& entry : k_entries) {
     const auto found = table.fields.find(entry.name);
@@ -93,7 +93,7 @@ ScriptValue draw_object(const ScriptCall& call) {
   refuse_items_beyond(reader, 2);
   reader.read_options(schema);
   apply_overrides(call, schema);
-  if (!file && options.unit != 1.0) reader.add_problem("unit: is of files; meshes and surfaces are in metres");
+  if (!file && options.unit != 1.0) reader.add_problem("unit: applies to files only; meshes and surfaces are in metres");
   try {
     if (!reader.has_problems()) require_draw_options(options);
     if (output) require_picture_output(*output);
@@ -122,10 +122,10 @@ std::string draw_help() {
   return options_help(sterna::options_of(options));
 }
 
-constexpr std::array<ScriptVerb, 1> k_draw_verbs = {
-    {{"draw", k_draw_usage,
-      "Draws a mesh, a surface or the file of one as PNG: walls by patch or figure, cells along a plane, the worst places. Needs no display (docs/draw.md).",
-      draw_object, draw_help, true, "nothing"}}};
+constexpr std::array<ScriptVerb, 1> k_draw_verbs = {{{"draw", k_draw_usage,
+                                                      "Draws a mesh, a surface or a file of either as a PNG picture: walls coloured by patch or quantity, "
+                                                      "cells along a plane, the worst locations. Needs no display (docs/draw.md).",
+                                                      draw_object, draw_help, true, "nothing"}}};
 
 }  // namespace
 

@@ -38,16 +38,16 @@ OptionTable some_options(MeshCase& options, std::string_view names) {
 /// its envelope.
 void require_one_part(const ScriptCall& call, const MeshingSite& site, const RunContext& context) {
   if (!site.options.periodic.empty())
-    reject(call, "the steps by hand do not keep periodic sides alike", "make_envelope{ wall, periodic = ... } does all of them");
+    reject(call, "the single envelope steps do not keep periodic sides identical", "make_envelope{ wall, periodic = ... } performs all steps");
   const std::vector<volmesh::WholePart> parts = volmesh::whole_parts(site.domain, site.options.parts, context);
   if (parts.empty()) return;
   const volmesh::PlacedPart& first = site.options.parts[parts.front().part];
   if (parts.size() == 1 && first.placement == Transform{} && first.own->n_triangles() == site.base.wall.n_triangles()) return;
   reject(call,
          "the wall has " + std::to_string(parts.size()) + (parts.size() == 1 ? " part" : " parts") +
-             " whose envelopes are made in their own frames, then moved and made clear of each other: the steps by hand are for a wall as a whole",
-         "make_envelope{ wall, ... } does all of it; surface_mesh{ ..., gap_cells = ... } meshes parts together in their places, and read_surface knows of no "
-         "parts");
+             " with envelopes made in their own frames, then moved and separated from each other: the single envelope steps take a wall as a whole",
+         "make_envelope{ wall, ... } performs all steps; surface_mesh{ ..., gap_cells = ... } meshes all parts together in position, and a surface of "
+         "read_surface has no parts");
 }
 
 SurfaceHandle with_inputs(const SurfaceHandle& wall, const std::vector<InputFile>& inputs) {
@@ -81,7 +81,7 @@ ScriptValue classify(const ScriptCall& call) {
   const OptionTable schema = some_options(options, k_classify_names);
   TableReader reader(table, call.attempted());
   const SurfaceHandle wall = wall_of(reader, k_classify_usage);
-  if (reader.items().size() > 1) reader.add_problem("entry 2: there is one too many");
+  if (reader.items().size() > 1) reader.add_problem("entry 2: unexpected, only one entry without a name is allowed");
   reader.read_options(schema);
   options.discs = read_interfaces(reader, call);
   options.wakes = read_wakes(reader, call);
@@ -108,8 +108,8 @@ ScriptValue make_initial(const ScriptCall& call) {
   const OptionTable schema = some_options(options, k_initial_names);
   TableReader reader(table, call.attempted());
   SurfaceHandle wall = wall_of(reader, k_initial_usage);
-  if (given.items.size() != 2 || !is_classified) reader.add_problem("entry 2: expected what envelope.classify gave: " + std::string(k_initial_usage));
-  else if (wall && (*classes)->wall->mesh.n_vertices() != wall->mesh.n_vertices()) reader.add_problem("entry 2: is of another wall");
+  if (given.items.size() != 2 || !is_classified) reader.add_problem("entry 2: expected the result of envelope.classify: " + std::string(k_initial_usage));
+  else if (wall && (*classes)->wall->mesh.n_vertices() != wall->mesh.n_vertices()) reader.add_problem("entry 2: belongs to another wall");
   const FunctionHandle first_heights = read_first_heights(reader, call);
   reader.read_options(schema);
   if (table.fields.contains("interfaces")) options.discs = read_interfaces(reader, call);
@@ -185,9 +185,9 @@ ScriptValue run_step(const ScriptCall& call) {
     reader.add_problem("entry 1: expected an envelope, not " + std::string(items.empty() ? "nothing" : type_text(items.front())) + ": " +
                        std::string(step.usage));
   else if (value.step < step.needs && !call.session.check)
-    reader.add_problem("entry 1: expected an envelope that is " + std::string(to_string(step.needs)) + " at least; this one is " +
+    reader.add_problem("entry 1: expected an envelope that is " + std::string(to_string(step.needs)) + " at least; this envelope is " +
                        std::string(to_string(value.step)) + " only");
-  if (items.size() > 1) reader.add_problem("entry 2: there is one too many");
+  if (items.size() > 1) reader.add_problem("entry 2: unexpected, only one entry without a name is allowed");
   const OptionTable schema = some_options(value.options, step.options);
   reader.read_options(schema);
   apply_overrides(call, schema);
@@ -212,19 +212,21 @@ std::string help_of_step() {
 }
 
 constexpr std::array<ScriptVerb, 7> k_envelope_steps_verbs = {{
-    {"envelope.classify", k_classify_usage, "Ridges, corners, convex and concave places of a wall: the first step of make_envelope by hand.", classify,
+    {"envelope.classify", k_classify_usage, "Finds ridges, corners, convex and concave regions of a wall: the first step of make_envelope.", classify,
      help_of_names<k_classify_names>, true, "envelope"},
-    {"envelope.initial", k_initial_usage, "Directions and target heights: the second step.", make_initial, help_of_names<k_initial_names>, true, "envelope"},
-    {k_steps[0].verb, k_steps[0].usage, "Smooths heights and directions.", run_step, help_of_step<0>, true, "envelope"},
-    {k_steps[1].verb, k_steps[1].usage, "Lowers heights where growth lines would meet.", run_step, help_of_step<1>, true, "envelope"},
+    {"envelope.initial", k_initial_usage, "Computes growth directions and target heights: the second step of make_envelope.", make_initial,
+     help_of_names<k_initial_names>, true, "envelope"},
+    {k_steps[0].verb, k_steps[0].usage, "Smooths heights and growth directions.", run_step, help_of_step<0>, true, "envelope"},
+    {k_steps[1].verb, k_steps[1].usage, "Lowers heights where growth lines would intersect.", run_step, help_of_step<1>, true, "envelope"},
     {k_steps[2].verb, k_steps[2].usage,
-     "Lowers heights until every macro-element is valid, smooths the envelope itself and lets it grow back as far as that holds.", run_step, help_of_step<2>,
-     true, "envelope"},
+     "Lowers heights until every macro-element is valid, smooths the envelope, then raises heights again as far as all elements stay valid.", run_step,
+     help_of_step<2>, true, "envelope"},
     {k_steps[3].verb, k_steps[3].usage,
-     "Shares gaps and lowers heights until nothing of the layer meets anything: from here on the envelope is good for tetrahedra.", run_step, help_of_step<3>,
+     "Divides gaps between layers and lowers heights until the layer intersects nothing. Tetrahedra can be made around the result.", run_step, help_of_step<3>,
      true, "envelope"},
-    {k_steps[4].verb, k_steps[4].usage, "Optimises the whole envelope: the last step of make_envelope, with which it gives the same bytes.", run_step,
-     help_of_step<4>, true, "envelope"},
+    {k_steps[4].verb, k_steps[4].usage,
+     "Optimises the whole envelope: the last step of make_envelope. All steps together give the same bytes as make_envelope.", run_step, help_of_step<4>, true,
+     "envelope"},
 }};
 
 }  // namespace

@@ -28,13 +28,13 @@ void read_manifest(const std::filesystem::path& file, FamilyMember& member, cons
   std::ifstream stream(path, std::ios::binary);
   const nlohmann::json json = nlohmann::json::parse(stream, nullptr, false);
   if (json.is_discarded() || !json.is_object() || json.value("schema", "") != "sterna-manifest-1")
-    return context.warn(path.string() + " is no manifest of a mesh: it is passed over");
+    return context.warn(path.string() + " is not the manifest of a mesh and is ignored");
   const auto number = [&](const char* place) -> std::optional<double> {
     const nlohmann::json::json_pointer at(place);
     return json.contains(at) && json[at].is_number() ? std::optional(json[at].get<double>()) : std::nullopt;
   };
   if (number("/mesh/nodes") != static_cast<double>(member.nodes))
-    return context.warn(path.string() + " is of another mesh than " + file.string() + ": it is passed over");
+    return context.warn(path.string() + " belongs to another mesh than " + file.string() + " and is ignored");
   member.refinement = number("/options/family/refinement");
   if (const std::optional<double> growth = number("/options/size/size_growth")) member.tet_growth = 1.0 + (*growth - 1.0) / member.refinement.value_or(1.0);
 }
@@ -49,7 +49,7 @@ struct Schema<scripting::CheckFamilyOptions> {
   using O = scripting::CheckFamilyOptions;
   static constexpr std::string_view stage = "check_family";
   static constexpr std::array fields = {
-      Field<O>{.name = "strict", .member = &O::strict, .help = "a rule that FAILs is an error"},
+      Field<O>{.name = "strict", .member = &O::strict, .help = "treat a rule that FAILs as an error"},
   };
 };
 
@@ -109,14 +109,15 @@ ScriptValue check_family_verb(const ScriptCall& call) {
   const FamilyReport report = check_family(std::move(members), tolerances);
   call.session.print(to_text(report));
   if (options.strict && report.state() == GateState::fail)
-    throw Error({.code = ErrorCode::mesh_invalid, .attempted = call.attempted(), .problem = "the meshes are no family: the rules that FAIL are printed above"});
+    throw Error(
+        {.code = ErrorCode::mesh_invalid, .attempted = call.attempted(), .problem = "the meshes are not a family: the rules that FAIL are printed above"});
   return table_of(report);
 }
 
 constexpr std::array<ScriptVerb, 1> k_family_gate_verbs = {{
     {"check_family", k_family_gate_usage,
-     "Checks that meshes are members of one family, each finer than the one before by one factor in all directions, and prints what was measured against what "
-     "the rule expects.",
+     "Checks that meshes are members of one family, each finer than the previous mesh by the same factor in all directions. Prints measured and expected "
+     "values of each rule.",
      check_family_verb, check_family_help, true, "table"},
 }};
 

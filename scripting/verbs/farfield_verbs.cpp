@@ -66,7 +66,7 @@ std::string read_sides(TableReader& reader) {
       } else if (key == "edge" && number && *number > 0.0) {
         rule.edge = *number;
       } else {
-        reader.add_problem("sides." + side + ": \"" + key + "\" is no kind, name (without blanks) or edge (above zero)");
+        reader.add_problem("sides." + side + ": \"" + key + "\" is not a valid kind, name (without blanks) or edge (above zero)");
       }
     };
     try {
@@ -136,7 +136,7 @@ bool is_farfield(const ScriptCall& call) {
 std::string sphere_help() {
   volmesh::FarfieldOptions options;
   return options_help(short_options(options, {"radius", "edge"})) +
-         "center = {x, y, z}: in place of the middle of the wall's box; sides = { ... }: kinds of its patches\n";
+         "center = {x, y, z}: centre, instead of the centre of the wall's bounding box; sides = { ... }: kinds of the farfield's patches\n";
 }
 
 namespace {
@@ -221,7 +221,7 @@ OptionOverrides farfield_of_text(const std::string& text) {
   OptionOverrides options;
   std::vector<std::string> numbers;
   const bool is_known = shape == "sphere" || shape == "box" || shape == "cylinder" || shape == "none" || shape == "automatic";
-  if (shape.empty() || (!is_known && shape.find('.') == std::string::npos)) throw refuse("\"" + shape + "\" is no shape");
+  if (shape.empty() || (!is_known && shape.find('.') == std::string::npos)) throw refuse("\"" + shape + "\" is not a farfield shape");
   options.emplace_back("farfield_shape", is_known ? shape : "surface");
   if (!is_known) options.emplace_back("farfield_surface", shape);
   std::string sides;

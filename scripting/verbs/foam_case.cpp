@@ -40,7 +40,7 @@ void complete_flow(FoamSetup& setup, const RunContext& context) {
   volmesh::FlowState& flow = setup.flow;
   if (is_automatic(flow.speed)) {
     flow.speed = 1.0;
-    context.info("OpenFOAM: of the flow the Reynolds number is known alone, so its speed is taken as 1 m/s; coefficients do not depend on it");
+    context.info("OpenFOAM: only the Reynolds number of the flow is given, so the speed is taken as 1 m/s; coefficients do not depend on the speed");
   }
   setup.is_density_known = !is_automatic(flow.density);
   setup.density = setup.is_density_known ? flow.density : 1.0;
@@ -51,16 +51,16 @@ void complete_flow(FoamSetup& setup, const RunContext& context) {
 /// custom of OpenFOAM's users. That the least limiter keeps runs from diverging was measured on one airliner at 89 degrees (docs/flow.md).
 void choose_correction(FoamSetup& setup, const CaseMeasure& non_orthogonality) {
   const double degrees = non_orthogonality.worst * k_degrees;
-  const std::string measured = fmt::format("The largest angle between the normal of a face and the line of its cells' centres is {:.4g} degrees{}", degrees,
+  const std::string measured = fmt::format("The largest angle between a face normal and the line through the centres of its cells is {:.4g} degrees{}", degrees,
                                            at_place(non_orthogonality));
   if (degrees <= k_full_correction) {
-    setup.correction_reason = fmt::format("{}: up to {:g} the correction is made in full.", measured, k_full_correction);
+    setup.correction_reason = fmt::format("{}: up to {:g} the full correction is applied.", measured, k_full_correction);
   } else if (degrees <= k_half_correction) {
     setup.correction = "limited corrected 0.5";
-    setup.correction_reason = fmt::format("{}: above {:g} the correction is held below the rest of the gradient.", measured, k_full_correction);
+    setup.correction_reason = fmt::format("{}: above {:g} the correction is limited to the rest of the gradient.", measured, k_full_correction);
   } else {
     setup.correction = "limited corrected 0.33";
-    setup.correction_reason = fmt::format("{}: above {:g} the correction is held below half of the rest of the gradient.", measured, k_half_correction);
+    setup.correction_reason = fmt::format("{}: above {:g} the correction is limited to half of the rest of the gradient.", measured, k_half_correction);
   }
   // Without a second solution for the pressure a half M6 became unstable after 150 iterations: faces above 80 degrees before its trailing edge.
   setup.n_correctors = degrees > k_full_correction || (setup.is_turbulent && !setup.is_compressible) ? 1 : 0;
@@ -86,12 +86,12 @@ Vec3 direction_of(const HybridMesh& mesh, const CaseSite& site, const CaseOption
 }
 
 void tell(const FoamSetup& setup, const CaseSite& site, const CaseReference& reference, const RunContext& context) {
-  std::string text = fmt::format("OpenFOAM: {}, {}, {} patches whose forces count", setup.application, setup.model, setup.monitored.size());
+  std::string text = fmt::format("OpenFOAM: {}, {}, forces of {} patches", setup.application, setup.model, setup.monitored.size());
   if (site.is_internal) {
-    text = fmt::format("OpenFOAM: {}, {}, an internal flow: postProcessing has mean pressures and flow rates of its openings", setup.application, setup.model);
+    text = fmt::format("OpenFOAM: {}, {}, internal flow: postProcessing has mean pressures and flow rates of the openings", setup.application, setup.model);
     if (setup.has_pressure_drop()) text += " and the pressure drop";
   } else if (is_automatic(setup.area)) {
-    text += "; no reference area, so forces in N and no coefficients";
+    text += "; no reference area is given, so forces are in N, without coefficients";
   } else {
     text +=
         fmt::format(", reference area {:.6g} m^2{}{}, length {:.6g} m, moments about ({:.6g}, {:.6g}, {:.6g}) m", setup.area,
@@ -100,11 +100,11 @@ void tell(const FoamSetup& setup, const CaseSite& site, const CaseReference& ref
   }
   context.info(text);
   if (!setup.is_density_known && !setup.is_compressible)
-    context.info("OpenFOAM: the density of the flow is not known, so forces are told for 1 kg/m^3; coefficients do not depend on it");
+    context.info("OpenFOAM: the density of the flow is not given, so forces are reported for 1 kg/m^3; coefficients do not depend on the density");
   if (!is_automatic(setup.flow.mach) && setup.flow.mach > k_supersonic_advice)
-    context.warn(
-        fmt::format("OpenFOAM: Mach {:.3g} is above {}: {} solves for the pressure and may not converge with strong shocks; rhoCentralFoam runs in time",
-                    setup.flow.mach, k_supersonic_advice, setup.application));
+    context.warn(fmt::format(
+        "OpenFOAM: Mach {:.3g} is above {}: {} is pressure-based and may not converge with strong shocks; rhoCentralFoam is density-based and transient",
+        setup.flow.mach, k_supersonic_advice, setup.application));
 }
 
 /// Vertices of walls where the layer has no height: beside such vertices in narrow crevices and gaps runs diverged (docs/measurements/solvers.md).
@@ -115,9 +115,9 @@ void warn_of_collapsed_lines(const HybridMesh& mesh, const RunContext& context) 
   const auto first = static_cast<std::size_t>(std::ranges::find_if(is_collapsed, [](std::uint8_t value) { return value != 0; }) - is_collapsed.begin());
   const Point& place = mesh.points[NodeId(mesh.layers.first_node[first])];
   context.warn(
-      fmt::format("OpenFOAM: the layer has no height at {} of the walls, the first at ({:.6g}, {:.6g}, {:.6g}): in narrow crevices and gaps runs "
-                  "diverged beside such vertices. Fill the crevice or gap in the geometry, move the parts there apart or into each other, or make the "
-                  "wall finer there; the report of the mesh gives the reason at each vertex",
+      fmt::format("OpenFOAM: the layer has no height at {} of the walls, the first at ({:.6g}, {:.6g}, {:.6g}): runs can diverge beside such vertices in "
+                  "narrow crevices and gaps. Fill the crevice or gap in the geometry, move the parts there apart or into each other, or refine the wall there; "
+                  "the report of the mesh gives the reason at each vertex",
                   n == 1 ? std::string("a vertex") : fmt::format("{} vertices", n), place.x, place.y, place.z));
 }
 
@@ -128,13 +128,13 @@ void tell_without_effect(const FoamSetup& setup, const RunContext& context) {
     if (is_given) context.warn(std::string("OpenFOAM: ") + name + " has no effect: " + why);
   };
   warn(given.turbulence_intensity != usual.turbulence_intensity && setup.model != "kOmegaSST", "turbulence_intensity",
-       "it is for the model kOmegaSST, and this is " + setup.model);
+       "it applies to the model kOmegaSST, and the model is " + setup.model);
   warn(!is_automatic(given.viscosity_ratio) && !setup.is_turbulent, "viscosity_ratio", "the model " + setup.model + " has no turbulence");
-  warn(!is_automatic(given.end_time) && given.steady, "end_time", "the run is steady, and ends after `iterations`");
+  warn(!is_automatic(given.end_time) && given.steady, "end_time", "the run is steady and ends after `iterations`");
   warn(given.courant != usual.courant && given.steady, "courant", "the run is steady");
-  warn(!is_automatic(given.residual) && !given.steady, "residual", "the run is in time, and ends at end_time");
-  warn(setup.common.iterations != CaseOptions{}.iterations && !given.steady, "iterations", "the run is in time, and ends at end_time");
-  warn(!is_automatic(setup.common.wall_temperature) && !setup.is_compressible, "wall_temperature", "the flow is incompressible, and has no temperature");
+  warn(!is_automatic(given.residual) && !given.steady, "residual", "the run is transient and ends at end_time");
+  warn(setup.common.iterations != CaseOptions{}.iterations && !given.steady, "iterations", "the run is transient and ends at end_time");
+  warn(!is_automatic(setup.common.wall_temperature) && !setup.is_compressible, "wall_temperature", "the flow is incompressible and has no temperature");
 }
 
 }  // namespace
@@ -143,8 +143,8 @@ void require_foam_flow(const FoamOptions& options, const volmesh::FlowState& flo
   if (!is_compressible(options, flow)) return;
   if (is_automatic(flow.temperature) || is_automatic(flow.pressure) || is_automatic(flow.speed))
     problems.add(
-        std::string("the state of the gas cannot be known, which a compressible flow needs: give altitude, or temperature and pressure, with mach or speed") +
-        (options.compressible == "automatic" ? fmt::format(" (or compressible = \"no\"; from Mach {} on it is)", k_compressible_mach) : ""));
+        std::string("the state of the gas is unknown, but a compressible flow needs it: give altitude, or temperature and pressure, with mach or speed") +
+        (options.compressible == "automatic" ? fmt::format(" (or compressible = \"no\"; the default is \"yes\" from Mach {} on)", k_compressible_mach) : ""));
 }
 
 FoamCase foam_case(const HybridMesh& mesh, const FoamOptions& options, const CaseOptions& common, const volmesh::FlowState& flow,

@@ -78,7 +78,7 @@ class FoamFields {
   std::string pressure_of(double pressure, const std::string& what) {
     if (setup_.is_compressible) return case_number(pressure);
     if (is_automatic(setup_.flow.pressure) || !setup_.is_density_known) {
-      problems_.add(what + " is given in Pa, but pressure and density of the flow cannot be known: give altitude, or temperature and pressure");
+      problems_.add(what + " is given in Pa, but pressure and density of the flow are unknown: give altitude, or temperature and pressure");
       return "0";
     }
     return case_number((pressure - setup_.flow.pressure) / setup_.density);
@@ -135,8 +135,8 @@ class FoamFields {
   }
 
   std::string unknown(const char* what, PatchId p, const char* needed) const {
-    return std::string("what ") + what + " \"" + mesh_.patches[p].name + "\" cannot be known: give boundaries = { [\"" + mesh_.patches[p].name + "\"] = { " +
-           needed + " } }";
+    return std::string("the condition at ") + what + " \"" + mesh_.patches[p].name + "\" is unknown: give boundaries = { [\"" + mesh_.patches[p].name +
+           "\"] = { " + needed + " } }";
   }
 
   PatchConditions inflow(PatchId p) {
@@ -151,7 +151,7 @@ class FoamFields {
       return c;
     }
     if (is_automatic(given.total_pressure) || (setup_.is_compressible && is_automatic(given.total_temperature) && !site_.is_tunnel)) {
-      problems_.add(unknown("comes out of the inflow", p, setup_.is_compressible ? "total_pressure = ..., total_temperature = ..." : "total_pressure = ..."));
+      problems_.add(unknown("the inflow", p, setup_.is_compressible ? "total_pressure = ..., total_temperature = ..." : "total_pressure = ..."));
       return c;
     }
     const std::string total = pressure_of(given.total_pressure, "the total pressure of \"" + mesh_.patches[p].name + "\"");
@@ -174,7 +174,7 @@ class FoamFields {
                       .alphat = k_calculated,
                       .potential = "type fixedValue; value uniform 0;"};
     if (!site_.is_tunnel && is_automatic(given.pressure)) {
-      problems_.add(unknown("goes into the outflow", p, "pressure = ..."));
+      problems_.add(unknown("the outflow", p, "pressure = ..."));
       return c;
     }
     if (!is_automatic(given.pressure))
@@ -190,7 +190,7 @@ class FoamFields {
     const bool is_front = front == p;
     const std::optional<PatchId> back = back_of_disc(mesh_, site_, front);
     if (!back) {
-      problems_.add("patch \"" + mesh_.patches[p].name + "\" is of kind interface and no actuator disc: its condition cannot be known");
+      problems_.add("patch \"" + mesh_.patches[p].name + "\" is of kind interface, but no side of an actuator disc: its boundary condition is unknown");
       return c;
     }
     if (is_front) joined_.push_back({front, *back, {}});

@@ -23,12 +23,12 @@ constexpr int k_many_near_bound = 25;
 constexpr int k_first_watched = 15, k_first_watched_in_gas = 30;  ///< iterations after which the impulse of the start has faded
 constexpr double k_place_radius = 0.02;                           ///< radius of the picture of a location, over the length of the flow
 
-constexpr std::string_view k_judge = R"AWK(# Reads what function objects wrote, one value or force for each iteration, and judges it.
+constexpr std::string_view k_judge = R"AWK(# Reads the output of function objects, one value or force per iteration, and tests it.
 # awk -f judge.awk -v what=settled -v window=200 -v share=0.002 -v drag="1 0 0" -v lift="0 0 1" FILES prints "settled PERCENT", "moving PERCENT" or "short"
-# Drag and lift have settled, each over its own size; lift over the drag's where that is larger, drag over a twentieth of the lift's. Without drag: one value.
+# Changes of drag and lift are relative to the size of each; of lift at least to that of drag, of drag at least to a twentieth of that of lift. Without drag: one value.
 # awk -f judge.awk -v what=bounded -v limit=680 -v first=340 -v from=15 -v many=0 FILES prints "diverged ITERATION SPEED FIRST_ITERATION X Y Z",
 # "touched NUMBER X Y Z" (the last location) or "bounded"
-# It has diverged where more than this number of the last 50 iterations are beyond the limit, or a velocity is no number.
+# The run has diverged if more than `many` of the last 50 iterations exceed the limit, or a velocity is not a number.
 /^#/ { next }
 { gsub(/[()]/, " ") }
 what == "bounded" {
@@ -79,7 +79,7 @@ END {
 }
 )AWK";
 
-constexpr std::string_view k_scale = R"AWK(# awk -v density=1.2 -f scale.awk FIELD: the field with its uniform vectors times the density.
+constexpr std::string_view k_scale = R"AWK(# awk -v density=1.2 -f scale.awk FIELD: prints the field with its uniform vectors multiplied by the density.
 {
   rest = $0
   line = ""
@@ -102,12 +102,12 @@ written() { if [ "$tasks" = 1 ]; then ls; else ls processor0 2> /dev/null; fi | 
 latest() { written | tail -n 1; }
 files() { for file in postProcessing/$1; do [ -f "$file" ] && echo "$file"; done | sort -t / -k 3,3g; }
 
-# Ends the run, and says where that began, if the velocity is out of bounds after iteration $1.
+# Ends the run if the velocity is out of bounds after iteration $1, and reports where divergence began.
 require_bounds() {
   set -- $(awk -f system/judge.awk -v what=bounded -v limit="$limit" -v first="$first_sign" -v from="$1" -v many="$many" $(files 'velocityRange/*/fieldMinMax*.dat'))
   [ "$1" = diverged ] || return 0
   echo "diverged: the largest velocity is $3 m/s at iteration $2, where $limit m/s is the limit; above $first_sign m/s since iteration $4, first at ($5, $6, $7) m"
-  echo "see the cells there: sterna draw MESH -o cells.png --cut x=$5 --focus \"$5,$6,$7 radius=$radius\" --color quality; what helps: docs/flow.md of sterna; Allclean before another run"
+  echo "see the cells there: sterna draw MESH -o cells.png --cut x=$5 --focus \"$5,$6,$7 radius=$radius\" --color quality; remedies: docs/flow.md of sterna; run Allclean before another run"
   exit 1
 }
 
@@ -118,7 +118,7 @@ warn_of_bounds() {
   echo "warning: the largest velocity exceeded $limit m/s in $2 of the last 50 iterations, last at ($3, $4, $5) m: do not trust the flow there"
 }
 
-# Solves up to iteration $1 and writes its results. Of earlier ones the last two stay.
+# Solves up to iteration $1 and writes the results. Removes earlier results except the last two.
 advance() {
   step=$interval
   [ $(($1 % step)) = 0 ] || step=$1
@@ -135,7 +135,7 @@ advance() {
 }
 is_converged() { tail -n 200 "$log" | grep -q "solution converged"; }
 
-# Whether what is judged stayed within the share $2 of its mean over the last $1 iterations; $moved: percent.
+# Succeeds if the tested values stayed within the fraction $2 of their mean over the last $1 iterations; $moved: change in percent.
 is_settled() {
   [ -n "$judged" ] || return 1
   set -- $(awk -f system/judge.awk -v what=settled -v window="$1" -v share="$2" -v drag="$drag" -v lift="$lift" $(files "$judged"))
@@ -143,17 +143,17 @@ is_settled() {
   [ "$1" = settled ]
 }
 
-# Of a run that was stopped within potentialFoam, which changes these fields.
+# Restores fields that potentialFoam changed, if an earlier run was stopped within it.
 restore
 at=$(latest)
 at=${at:-0}
 if [ "$at" = 0 ]; then
   : > "$log"
   if [ "$has_potential" = yes ]; then
-    # Fluxes that conserve mass; without them the first iterations make velocities far above the flow's. The velocity itself stays uniform, because what
-    # potentialFoam reconstructs from its fluxes is wrong in Debian's OpenFOAM 1912.
+    # Makes fluxes that conserve mass; without them the first iterations give velocities far above that of the flow. The velocity itself stays uniform,
+    # because the velocity that potentialFoam reconstructs from its fluxes is wrong in Debian's OpenFOAM 1912.
     cp 0/U U.start && cp 0/Phi Phi.start && cp system/stage.start system/stage || exit 1
-    # Of a gas they are of mass: potentialFoam gets velocities times the density of the free stream.
+    # Gases need mass fluxes: potentialFoam gets velocities times the density of the free stream.
     [ -z "$density" ] || awk -v density="$density" -f system/scale.awk U.start > 0/U || { restore; exit 1; }
     echo "running potentialFoam"
     potentialFoam -writephi -noFunctionObjects > log.potentialFoam 2>&1 || {
@@ -243,23 +243,21 @@ class RunFiles {
   }
   std::string start_stage() const {
     std::string text =
-        "// First order, with a correction of normal gradients that is never above half of the rest: a robust start from uniform flow.\n"
-        "convectionOfU bounded Gauss upwind;\ncorrection limited corrected 0.33;\n";
+        "// First order, with a correction of normal gradients that is limited to half of the rest: a robust start from uniform flow.\nconvectionOfU bounded "
+        "Gauss upwind;\ncorrection limited corrected 0.33;\n";
     if (s_.is_transonic())
       text +=
-          "// Limited, so that no value at a face is beyond those around: without it the start from uniform flow diverges where shocks form.\n"
-          "gradients cellLimited pointCellsLeastSquares 1;\ngradientOfU cellLimited pointCellsLeastSquares 1;\nconvectionOfPressure Gauss upwind;\n";
+          "// Limited, so that no value at a face exceeds the values of the cells around: without the limiter the start from uniform flow diverges where "
+          "shocks form.\ngradients cellLimited pointCellsLeastSquares 1;\ngradientOfU cellLimited pointCellsLeastSquares 1;\nconvectionOfPressure Gauss "
+          "upwind;\n";
     return text;
   }
 
   std::string head() const {
     return "#!/bin/sh\n# Written by sterna " STERNA_VERSION ". Flow: " + describe(s_.flow) +
-           "\ncd \"$(dirname \"$0\")\" || exit 1\n"
-           "# Packages of Debian have no script that sets it.\n[ -n \"$WM_PROJECT_DIR\" ] || { [ -d /usr/share/openfoam ] && export "
-           "WM_PROJECT_DIR=/usr/share/openfoam; }\n"
-           "run() { name=$1; shift; echo \"running $name\"; \"$@\" > \"log.$name\" 2>&1 || { tail -n 30 \"log.$name\"; echo \"$name failed, see log.$name\"; "
-           "exit 1; "
-           "}; }\n";
+           "\ncd \"$(dirname \"$0\")\" || exit 1\n# Debian's packages have no script that sets WM_PROJECT_DIR.\n[ -n \"$WM_PROJECT_DIR\" ] || { [ -d "
+           "/usr/share/openfoam ] && export WM_PROJECT_DIR=/usr/share/openfoam; }\nrun() { name=$1; shift; echo \"running $name\"; \"$@\" > \"log.$name\" 2>&1 "
+           "|| { tail -n 30 \"log.$name\"; echo \"$name failed, see log.$name\"; exit 1; }; }\n";
   }
   std::string solver() const { return is_parallel_ ? fmt::format("mpirun -np {} {} -parallel", s_.options.tasks, s_.application) : s_.application; }
 
@@ -279,26 +277,27 @@ class RunFiles {
     std::string text;
     const auto set = [&](const char* name, const std::string& value, const char* what) { text += fmt::format("{}='{}'  # {}\n", name, value, what); };
     set("application", s_.application, "the solver");
-    set("solver", solver(), "and how it is run");
-    set("log", "log." + s_.application, "of all parts");
+    set("solver", solver(), "command that runs the solver");
+    set("log", "log." + s_.application, "log of all parts of the run");
     set("tasks", std::to_string(s_.options.tasks), "processes");
     set("most", std::to_string(s_.common.iterations), "iterations at most");
-    set("part", std::to_string(part()), "iterations from one judgement to the next");
-    set("interval", std::to_string(interval()), "iterations from one result to the next");
+    set("part", std::to_string(part()), "iterations between two tests of convergence");
+    set("interval", std::to_string(interval()), "iterations between written results");
     set("start_end", std::to_string(is_in_parts() ? std::max(k_part, s_.common.iterations / 3 / k_part * k_part) : 0),
-        "iteration at which the start of first order ends at the latest; 0: no such start");
-    set("judged", s_.settles_by, "files of the values that end the run when they settle; empty: residuals alone do");
-    set("judged_name", is_judged_by_forces() ? "drag or lift" : "the pressure drop", "what they are");
-    set("drag", is_judged_by_forces() ? along(s_.drag_direction()) : "", "directions of drag and lift; empty: what is judged is one value");
+        "iteration at which the first-order start ends at the latest; 0: no such start");
+    set("judged", s_.settles_by, "files of the values that end the run when they have settled; empty: only residuals end the run");
+    set("judged_name", is_judged_by_forces() ? "drag or lift" : "the pressure drop", "name of these values");
+    set("drag", is_judged_by_forces() ? along(s_.drag_direction()) : "", "directions of drag and lift; empty: one value is tested");
     set("lift", is_judged_by_forces() ? along(s_.lift_direction()) : "", "");
     set("has_residuals", s_.residual_limit() > 0.0 ? "yes" : "", "limits of residuals end the run as well; empty: they do not");
-    set("limit", case_number(limit), "m/s, beyond which the run has diverged");
-    set("first_sign", case_number(k_first_sign * limit), "m/s, by which the place is found where that began");
-    set("many", std::to_string(s_.is_compressible ? k_many_near_bound : 0), "of 50 iterations that may be beyond it: bounded velocities of gases return");
-    set("watched", std::to_string(first_watched(s_)), "iteration from which on the velocity is judged; before, the impulse of the start has not faded");
-    set("radius", case_number(k_place_radius * s_.flow.length), "m, of a picture of that place");
+    set("limit", case_number(limit), "m/s, speed above which the run has diverged");
+    set("first_sign", case_number(k_first_sign * limit), "m/s, speed that marks the location where divergence began");
+    set("many", std::to_string(s_.is_compressible ? k_many_near_bound : 0),
+        "number of the last 50 iterations that may exceed the limit: bounded velocities of gases return");
+    set("watched", std::to_string(first_watched(s_)), "first iteration at which the velocity is tested; before, the impulse of the start has not faded");
+    set("radius", case_number(k_place_radius * s_.flow.length), "m, radius of a picture of that location");
     set("has_potential", has_potential() ? "yes" : "no", "fluxes of potentialFoam at the start; supersonic flow has no such potential");
-    set("density", has_mass_fluxes() ? case_number(s_.density) : "", "kg/m^3, of the free stream: those fluxes are of mass; empty: of volume");
+    set("density", has_mass_fluxes() ? case_number(s_.density) : "", "kg/m^3, density of the free stream: the fluxes are mass fluxes; empty: volume fluxes");
     return text;
   }
 
@@ -307,7 +306,7 @@ class RunFiles {
   }
 
   std::string clean_script() const {
-    return "#!/bin/sh\n# Results and logs; 0/, constant/ and system/ stay.\ncd \"$(dirname \"$0\")\" || exit 1\n" + std::string(k_restore) +
+    return "#!/bin/sh\n# Removes results and logs; 0/, constant/ and system/ stay.\ncd \"$(dirname \"$0\")\" || exit 1\n" + std::string(k_restore) +
            "restore || exit 1\nrm -rf log.* postProcessing processor[0-9]* "
            "[1-9]* 0.[0-9]* [0-9]*e-[0-9]* 0/phi\n" +
            (s_.options.steady ? "cp system/stage.final system/stage\n" + reset_control() : "");
@@ -336,7 +335,7 @@ std::string foam_watch_functions(const FoamSetup& setup) {
     }
 )";
   if (setup.is_compressible) return text;
-  return text + fmt::format(R"(    // Far above the flow's the run has diverged and ends.
+  return text + fmt::format(R"(    // A velocity far above that of the flow means divergence: the run ends.
     stopWhereItDiverges
     {{
         type runTimeControl;

@@ -173,13 +173,15 @@ class FoamSettings {
       scheme = "$gradients";
       more = " grad(U) $gradientOfU;";
     } else if (s_.is_transonic()) {
-      text = "// Limited, so that no value at a face is beyond those around: without it the start from uniform flow diverges where shocks form.\n";
+      text =
+          "// Limited, so that no value at a face exceeds the values of the cells around: without the limiter the start from uniform flow diverges where "
+          "shocks form.\n";
       scheme = "cellLimited pointCellsLeastSquares 1";
     }
     if (s_.is_turbulent) {
       text +=
-          "// The pressure's as its equation has it, from values at faces: by least squares the thin cells over a sharp trailing edge\n"
-          "// become unstable, in gases within 30 iterations, else after 100 to 200.\n";
+          "// The pressure gradient is computed from values at faces, as in the pressure equation: by least squares the thin cells over a sharp trailing "
+          "edge\n// become unstable, in gases within 30 iterations, otherwise after 100 to 200.\n";
       more += " grad(p) Gauss linear;";
     }
     return text + "gradSchemes { default " + scheme + ";" + more + " }\n\n";
@@ -188,18 +190,16 @@ class FoamSettings {
   std::string schemes() const {
     const std::string bounded = is_steady_ ? "bounded " : "";
     std::string text =
-        std::string(is_steady_ ? "#include \"stage\"  // convection of the velocity and correction of normal gradients: of first order at the start\n\n" : "") +
+        std::string(is_steady_ ? "#include \"stage\"  // convection of the velocity and correction of normal gradients: first order at the start\n\n" : "") +
         std::string("ddtSchemes { default ") + (is_steady_ ? "steadyState" : "backward") + "; }\n\n" +
         "// Least squares over all cells that share a point. Gauss linear is not exact for linear fields on tetrahedra and on prisms over curved walls:\n"
         "// 3 % of the drag of a sphere; leastSquares, over neighbours by faces, has too few of them in a tetrahedron and diverges.\n" +
         gradients();
     text +=
-        "// Second order upwind for the velocity. Component by component, laminar flow has it best (along its steepest direction a coarse sphere's drag is 2.5 "
-        "% "
-        "high); else along its steepest direction, because a start from uniform flow diverges in gases and over sharp trailing edges. k and omega are "
-        "limited, of first order only where they have to be. nuTilda is of first order: limited, it falls below zero in tetrahedra at the edges of wakes and "
-        "is set back there at every iteration, for ever.\n"
-        "divSchemes\n{\n    default none;\n    div(phi,U) " +
+        "// Second order upwind for the velocity. Component by component is best for laminar flow (along the steepest direction the drag of a coarse sphere is "
+        "2.5 % high). Other flows are limited along the steepest direction, because otherwise a start from uniform flow diverges in gases and over sharp "
+        "trailing edges. k and omega are limited: first order only where necessary. nuTilda is first order: with a limiter it falls below zero in tetrahedra "
+        "at the edges of wakes and is reset there at every iteration.\ndivSchemes\n{\n    default none;\n    div(phi,U) " +
         (is_steady_ ? std::string("$convectionOfU") : s_.convection()) + ";\n";
     if (s_.is_compressible) {
       text += "    div(phi,e) " + bounded + "Gauss limitedLinear 1;\n    div(phi,Ekp) " + bounded + "Gauss limitedLinear 1;\n    div(phi,K) " + bounded +
@@ -231,7 +231,8 @@ class FoamSettings {
       if (s_.is_compressible) text += "    \"rho.*\" { solver diagonal; }\n";
     }
     text +=
-        "}\n\n// Fluxes conserve mass to Phi's tolerance after each of them.\npotentialFlow { nNonOrthogonalCorrectors 5; PhiRefCell 0; PhiRefValue 0; }\n\n";
+        "}\n\n// After each corrector the fluxes conserve mass to the tolerance of Phi.\npotentialFlow { nNonOrthogonalCorrectors 5; PhiRefCell 0; PhiRefValue "
+        "0; }\n\n";
     const std::string limits =
         s_.is_compressible ? std::string("    pMinFactor 0.1;\n    pMaxFactor 2;\n    transonic ") + (s_.is_transonic() ? "yes" : "no") + ";\n" : "";
     const std::string reference = "    pRefCell 0;\n    pRefValue " + (s_.is_compressible ? case_number(s_.flow.pressure) : std::string("0")) + ";\n";
@@ -244,34 +245,31 @@ class FoamSettings {
       controls += "        " + fields.substr(at, end - at) + " " + case_number(s_.residual_limit()) + ";\n";
     text += "SIMPLE\n{\n    consistent yes;\n    nNonOrthogonalCorrectors " + std::to_string(s_.n_correctors) + ";\n" + limits + reference +
             (s_.residual_limit() > 0.0 ? "    residualControl\n    {\n" + controls + "    }\n" : "") + "}\n\n";
-    if (s_.model == "SpalartAllmaras")
-      text += "// At 0.7 for nuTilda, that and the velocity in the buffer layer swing from one iteration to the next for ever.\n";
+    if (s_.model == "SpalartAllmaras") text += "// At 0.7 for nuTilda, nuTilda and the velocity in the buffer layer oscillate without converging.\n";
     return text + "relaxationFactors\n{\n    " + (s_.is_compressible ? "fields { p 1; rho 1; }\n    " : "") + "equations { p 1; U 0.8; " +
            (s_.is_compressible ? "e 0.8; " : "") + "nuTilda 0.4; \"(k|omega)\" 0.7; }\n}\n";
   }
 
   std::string temperature_limits() const {
-    return "// The start from uniform flow throws single cells far off: below zero the viscosity of air has no value, and the solver dies. Where the "
-           "temperature "
-           "ends at one of these\n// limits (postProcessing/temperature has its range of every step), the flow is not to be believed.\n"
-           "limit_temperature\n{\n    type limitTemperature;\n    active yes;\n    selectionMode all;\n    min " +
+    return "// The start from uniform flow gives single cells extreme values: below zero the viscosity of air has no value, and the solver aborts. Where the "
+           "temperature ends at one of\n// these limits (postProcessing/temperature has the range of every step), do not trust the "
+           "flow.\nlimit_temperature\n{\n    type limitTemperature;\n    active yes;\n    selectionMode all;\n    min " +
            case_number(0.3 * s_.flow.temperature) + ";\n    max " +
            case_number(3.0 * (s_.flow.temperature + 0.5 * s_.flow.speed * s_.flow.speed / k_heat_capacity)) + ";\n}\n";
   }
 
   std::string velocity_bound() const {
-    return "\n// The same for velocities: without this bound the first iterations of a business jet at Mach 0.5 reached 19 km/s beside a wing tip and did not "
-           "return. A run "
-           "whose\n// largest velocity stays near it is stopped as diverged.\nlimit_velocity\n{\n    type limitVelocity;\n    active yes;\n    selectionMode "
-           "all;\n    max " +
+    return "\n// Bounds the velocity: without this bound the first iterations of a business jet at Mach 0.5 reached 19 km/s beside a wing tip and did not "
+           "return. A run whose\n// largest velocity stays near the bound is stopped as diverged.\nlimit_velocity\n{\n    type limitVelocity;\n    active "
+           "yes;\n    selectionMode all;\n    max " +
            case_number(foam_speed_bound(s_)) + ";\n}\n";
   }
 
   std::string decomposition() const {
     const auto n = split_tasks(s_.options.tasks);
     return "numberOfSubdomains " + std::to_string(s_.options.tasks) +
-           ";\n// By coordinates, because not every OpenFOAM has scotch (Debian's has not); where it is there, \"method scotch;\" has the smaller interfaces.\n"
-           "method hierarchical;\nhierarchicalCoeffs { n (" +
+           ";\n// By coordinates, because not every OpenFOAM has scotch (Debian's does not). If scotch is available, \"method scotch;\" gives smaller "
+           "interfaces.\nmethod hierarchical;\nhierarchicalCoeffs { n (" +
            std::to_string(n[0]) + " " + std::to_string(n[1]) + " " + std::to_string(n[2]) + "); order xyz; }\ncoeffs { n (" + std::to_string(n[0]) + " " +
            std::to_string(n[1]) + " " + std::to_string(n[2]) + "); order xyz; }\n";
   }

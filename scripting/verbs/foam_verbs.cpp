@@ -56,7 +56,7 @@ void require_new_case(const std::filesystem::path& folder, const std::string& at
   if (whole.find_first_of(" \t\n\"'") != std::string::npos)
     throw Error({.code = ErrorCode::bad_argument,
                  .attempted = attempted,
-                 .problem = "the path " + whole + " has a blank or a quotation mark, and OpenFOAM's programs do not run in such a folder",
+                 .problem = "the path " + whole + " has a blank or a quotation mark; OpenFOAM's programs do not run in such a folder",
                  .hint = "choose a folder without them"});
   std::vector<std::string> results;
   std::error_code status;  // of a folder that is not there: there are no results
@@ -68,8 +68,8 @@ void require_new_case(const std::filesystem::path& folder, const std::string& at
   if (results.empty()) return;
   throw Error({.code = ErrorCode::write_failed,
                .attempted = attempted,
-               .problem = "the case " + folder.string() + " has results (" + *std::ranges::min_element(results) + "), which a new one would replace",
-               .hint = "remove them with its Allclean, or choose another name"});
+               .problem = "the case " + folder.string() + " has results (" + *std::ranges::min_element(results) + "), which a new case would replace",
+               .hint = "remove the results with Allclean of the case, or choose another name"});
 }
 
 void write_foam_folder(const MeshValue& mesh, const FoamOptions& options, const CaseRequest& request, const std::filesystem::path& folder,

@@ -37,9 +37,9 @@ std::string unknown_measure(const std::string& name) {
   std::string of_gate;
   for (const MeasureInfo& info : measures())
     if (info.gate == name) of_gate += (of_gate.empty() ? "" : ", ") + std::string(info.name);
-  if (!of_gate.empty()) return "gates." + name + ": " + name + " has several measures, name one: " + of_gate;
+  if (!of_gate.empty()) return "gates." + name + ": " + name + " has several measures; name one of " + of_gate;
   const std::string nearest = nearest_name(name, measure_names());
-  return "gates." + name + ": there is no such measure" + (nearest.empty() ? "; docs/quality_gates.md lists them" : ", did you mean " + nearest + "?");
+  return "gates." + name + ": unknown measure" + (nearest.empty() ? "; docs/quality_gates.md lists them" : ", did you mean " + nearest + "?");
 }
 
 const MeasureInfo* measure_of(const std::string& name) {
@@ -63,15 +63,15 @@ std::string objection_to(const MeasureInfo& info, const GateLimits& limits) {
   if (!(limits.usual_share >= 0.0 && limits.usual_share <= 1.0)) return "share is " + number_text(limits.usual_share) + ", it must be between 0 and 1";
   const double hard = info.is_low_bad ? -limits.hard : limits.hard, target = info.is_low_bad ? -limits.target : limits.target;
   if (target > hard)
-    return "target " + limit_text(info, limits.target) + " is easier than hard " + limit_text(info, limits.hard) + "; for this measure " +
-           (info.is_low_bad ? "larger" : "smaller") + " values are better: give both (what is not given stays as it is usual)";
+    return "target " + limit_text(info, limits.target) + " is less strict than hard " + limit_text(info, limits.hard) + "; for this measure " +
+           (info.is_low_bad ? "larger" : "smaller") + " values are better: give both limits (a limit that is not given keeps its default)";
   return {};
 }
 
 void read_limits(const MeasureInfo& info, const ScriptTable& table, const std::string& key, TableReader& reader, GateTable& limits) {
   GateLimits changed = limits[info.measure];
   if (!table.items.empty() || !table.other_keys.empty() || table.fields.empty())
-    reader.add_problem(key + ": takes hard, target, usual and share by name, or is false");
+    reader.add_problem(key + ": expected a table with hard, target, usual, share, or false");
   for (const auto& [name, value] : table.fields) {
     double* const limit = limit_of(changed, name);
     const auto* off = std::get_if<bool>(&value);
@@ -79,7 +79,7 @@ void read_limits(const MeasureInfo& info, const ScriptTable& table, const std::s
     const auto* whole = std::get_if<std::int64_t>(&value);
     if (!limit) {
       const std::string nearest = nearest_name(name, limit_names());
-      reader.add_problem(key + "." + name + ": unknown" + (nearest.empty() ? "; there are hard, target, usual, share" : ", did you mean " + nearest + "?"));
+      reader.add_problem(key + "." + name + ": unknown" + (nearest.empty() ? "; known are hard, target, usual, share" : ", did you mean " + nearest + "?"));
     } else if (off && !*off && name != "share") {
       *limit = k_none;
     } else if (number || whole) {
@@ -99,7 +99,7 @@ bool read_gate_limits(TableReader& reader, GateTable& limits) {
   if (!value) return false;
   const auto* table = std::get_if<std::shared_ptr<const ScriptTable>>(value);
   if (!table || !(*table)->items.empty() || !(*table)->other_keys.empty()) {
-    reader.add_problem("gates: expected limits by measure, such as " + std::string(k_example));
+    reader.add_problem("gates: expected a table with measures as keys, such as " + std::string(k_example));
     return true;
   }
   for (const auto& [name, entry] : (*table)->fields) {
@@ -122,7 +122,7 @@ void set_gate_limits(std::string_view text, GateTable& limits) {
   const std::string name(text.substr(0, colon));
   const MeasureInfo* info = measure_of(name);
   if (!info) refuse(unknown_measure(name));
-  if (colon == std::string_view::npos || colon + 1 == text.size()) refuse("it names no limit", "write " + name + ":hard=1,target=2 or " + name + ":none");
+  if (colon == std::string_view::npos || colon + 1 == text.size()) refuse("no limit is given", "write " + name + ":hard=1,target=2 or " + name + ":none");
   std::string_view rest = text.substr(colon + 1);
   GateLimits changed = limits[info->measure];
   if (rest == "none") {
@@ -135,7 +135,7 @@ void set_gate_limits(std::string_view text, GateTable& limits) {
     const std::size_t equals = entry.find('=');
     const std::string_view key = entry.substr(0, equals);
     double* const limit = limit_of(changed, key);
-    if (!limit || equals == std::string_view::npos) refuse("\"" + std::string(entry) + "\" is none of hard=, target=, usual=, share=");
+    if (!limit || equals == std::string_view::npos) refuse("\"" + std::string(entry) + "\" is not one of hard=, target=, usual=, share=");
     const std::string_view number = entry.substr(equals + 1);
     try {
       *limit = number == "none" && key != "share" ? k_none : typed_number(number, info->is_angle && key != "share" ? Unit::radian : Unit::none);
@@ -148,7 +148,7 @@ void set_gate_limits(std::string_view text, GateTable& limits) {
 }
 
 std::string gate_limits_help() {
-  std::string text = "gates = { measure = { hard, target, usual, share } or false }: limits of the QUALITY gates instead of these:\n";
+  std::string text = "gates = { measure = { hard, target, usual, share } or false }: limits of QUALITY gates, instead of these defaults:\n";
   for (const MeasureInfo& info : measures()) {
     text += "  " + std::string(info.name) + " (" + std::string(info.gate) + "): ";
     std::string limits;
@@ -156,7 +156,7 @@ std::string gate_limits_help() {
     if (!std::isnan(info.limits.hard)) add("hard " + limit_text(info, info.limits.hard));
     if (!std::isnan(info.limits.target)) add("target " + limit_text(info, info.limits.target));
     if (!std::isnan(info.limits.usual)) add("usual " + limit_text(info, info.limits.usual) + " for a share of " + number_text(info.limits.usual_share, 4));
-    text += (limits.empty() ? "shown only" : limits) + "\n";
+    text += (limits.empty() ? "reported, without limits" : limits) + "\n";
   }
   return text;
 }

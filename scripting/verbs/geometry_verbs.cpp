@@ -53,11 +53,19 @@ struct Schema<scripting::AirfoilOptions> {
                .member = &O::trailing_edge,
                .min = 0.0,
                .max = 0.1999,
-               .help = "its thickness, of the chord; 0 = sharp",
-               .automatic = "as it is"},
-      Field<O>{.name = "points", .member = &O::points, .min = 0, .max = 2000, .help = "along each side, dense where the section is curved; 0 = as they are"},
-      Field<O>{
-          .name = "within", .member = &O::within, .min = 1e-9, .max = 0.1, .help = "as few points as keep so near, of the chord", .automatic = "as they are"},
+               .help = "thickness of the trailing edge, relative to the chord; 0 = sharp",
+               .automatic = "unchanged"},
+      Field<O>{.name = "points",
+               .member = &O::points,
+               .min = 0,
+               .max = 2000,
+               .help = "number of points along each side, dense where the section is curved; 0 = unchanged"},
+      Field<O>{.name = "within",
+               .member = &O::within,
+               .min = 1e-9,
+               .max = 0.1,
+               .help = "use the fewest points that stay within this distance, relative to the chord",
+               .automatic = "unchanged"},
   };
 };
 template <>
@@ -65,16 +73,20 @@ struct Schema<scripting::SurfaceOptions> {
   using O = scripting::SurfaceOptions;
   static constexpr std::string_view stage = "surface_function";
   static constexpr std::array fields = {
-      Field<O>{.name = "name", .member = &O::name, .help = "of component and patch"},
+      Field<O>{.name = "name", .member = &O::name, .help = "name of the component and its patch"},
       Field<O>{.name = "tolerance",
                .member = &O::tolerance,
                .unit = Unit::metre,
                .min = 1e-12,
                .max = 1.0,
-               .help = "largest distance between the function and the bicubic spline that stands for it"},
-      Field<O>{.name = "periodic_u", .member = &O::periodic_u, .help = "closed and smooth across the ends of u"},
-      Field<O>{.name = "periodic_v", .member = &O::periodic_v, .help = "the same of v"},
-      Field<O>{.name = "max_intervals", .member = &O::max_intervals, .min = 4, .max = 10000, .help = "of the spline along u and along v"},
+               .help = "largest distance between the function and the bicubic spline that approximates it"},
+      Field<O>{.name = "periodic_u", .member = &O::periodic_u, .help = "the surface is closed and smooth across the ends of u"},
+      Field<O>{.name = "periodic_v", .member = &O::periodic_v, .help = "the surface is closed and smooth across the ends of v"},
+      Field<O>{.name = "max_intervals",
+               .member = &O::max_intervals,
+               .min = 4,
+               .max = 10000,
+               .help = "largest number of intervals of the spline along u and along v"},
   };
 };
 template <>
@@ -82,8 +94,8 @@ struct Schema<scripting::SolidOptions> {
   using O = scripting::SolidOptions;
   static constexpr std::string_view stage = "solid";
   static constexpr std::array fields = {
-      Field<O>{.name = "name", .member = &O::name, .help = "of component and patch; empty: the verb's"},
-      Field<O>{.name = "radius", .member = &O::radius, .unit = Unit::metre, .min = 1e-12, .help = "of a cylinder", .required = true},
+      Field<O>{.name = "name", .member = &O::name, .help = "name of the component and its patch; empty: the name of the verb"},
+      Field<O>{.name = "radius", .member = &O::radius, .unit = Unit::metre, .min = 1e-12, .help = "radius of the cylinder", .required = true},
   };
 };
 
@@ -130,7 +142,7 @@ ScriptValue read_description(const ScriptCall& call) {
   std::vector<ControlSetting> settings;
   if (const ScriptValue* value = reader.field("deflections")) {
     if (const auto* angles = std::get_if<TableHandle>(value)) settings = read_control_settings(**angles, "deflections", reader);
-    else reader.add_problem("deflections: expected a table of angles by names of control surfaces, not " + std::string(type_text(*value)));
+    else reader.add_problem("deflections: expected a table with names of control surfaces as keys and angles as values, not " + std::string(type_text(*value)));
   }
   if (file) check_deflections(call, *file, settings, reader);
   reader.finish();
@@ -167,7 +179,7 @@ ScriptValue make_airfoil(const ScriptCall& call) {
     airfoil = read_airfoil_value(TableHandle(list), call, reader, "the entries");
   }
   reader.read_options(schema);
-  if (options.points > 0 && !is_automatic(options.within)) reader.add_problem("points and within: give one of them");
+  if (options.points > 0 && !is_automatic(options.within)) reader.add_problem("points and within: give only one of the two");
   if (options.points > 0 && options.points < 5) reader.add_problem("points: at least 5");
   reader.finish();
   if (!is_automatic(options.trailing_edge)) airfoil = with_trailing_edge(*airfoil, options.trailing_edge);
@@ -284,7 +296,7 @@ ScriptValue make_surface(const ScriptCall& call) {
                                                  .is_periodic_u = options.periodic_u,
                                                  .is_periodic_v = options.periodic_v,
                                                  .max_intervals = options.max_intervals});
-  ModelValue value{.without_description = "it is the surface of a function"};
+  ModelValue value{.without_description = "it is made from a function"};
   value.report = fmt::format("surface \"{}\": {} x {} samples, at most {:.3g} m from the function", options.name, sampled.n_u, sampled.n_v, sampled.error);
   call.session.context.info(value.report);
   value.model = model_of_surface(sampled, options, box);
@@ -337,15 +349,15 @@ std::string geometry_help_of() {
 }
 
 constexpr std::array<ScriptVerb, 5> k_geometry_verbs = {{
-    {"read_cad", k_read_cad_usage, "Reads a STEP, IGES or BREP file, mends it and says what it found.", read_cad_verb, geometry_help_of<ReadCadOptions>, true,
+    {"read_cad", k_read_cad_usage, "Reads a STEP, IGES or BREP file, repairs it and reports what it found.", read_cad_verb, geometry_help_of<ReadCadOptions>,
+     true, "model", true},
+    {"read_smx", k_read_smx_usage, "Reads a geometry file of sumo. Its components stay separate.", read_description<read_smx_model>, control_settings_help,
+     true, "model", true},
+    {"read_cpacs", k_read_cpacs_usage, "Reads a CPACS file. Its components stay separate.", read_description<read_cpacs_model>, control_settings_help, true,
      "model", true},
-    {"read_smx", k_read_smx_usage, "Reads a geometry file of sumo: its components side by side.", read_description<read_smx_model>, control_settings_help, true,
-     "model", true},
-    {"read_cpacs", k_read_cpacs_usage, "Reads a CPACS file: its components side by side.", read_description<read_cpacs_model>, control_settings_help, true,
-     "model", true},
-    {"airfoil", k_airfoil_usage, "A wing section: by NACA designation, from a file (Selig or Lednicer), or from points.", make_airfoil,
+    {"airfoil", k_airfoil_usage, "Makes a wing section from a NACA designation, a file (Selig or Lednicer) or points.", make_airfoil,
      geometry_help_of<AirfoilOptions>, false, "airfoil"},
-    {"surface", k_surface_usage, "A surface given by a function; a spline that is checked between its samples stands for it.", make_surface,
+    {"surface", k_surface_usage, "Makes a surface from a function, approximated by a spline that is checked between its samples.", make_surface,
      geometry_help_of<SurfaceOptions>, false, "model"},
 }};
 

@@ -21,7 +21,7 @@ constexpr std::string_view k_half_usage = "half{ model, at = 0.4 }  or  half{ wa
 std::string half_help() {
   HalfOptions of_surface;
   HalfModelOptions of_model;
-  return "of a surface, or a surface's file:\n" + options_help(sterna::options_of(of_surface)) + "of models and components:\n" +
+  return "for a surface or a file of a surface:\n" + options_help(sterna::options_of(of_surface)) + "for models and components:\n" +
          options_help(sterna::options_of(of_model));
 }
 
@@ -73,8 +73,8 @@ ScriptValue make_half(const ScriptCall& call) {
 
 constexpr std::array<ScriptVerb, 1> k_half_verbs = {{
     {"half", k_half_usage,
-     "The half of a model or a surface on one side of its plane of symmetry: open there, the rim in the plane to the last bit. Half models are taken as they "
-     "are.",
+     "Cuts a model or a surface at its plane of symmetry and returns one half: open there, with its boundary exactly in the plane. Half models are returned "
+     "unchanged.",
      make_half, half_help, true, "model or surface", true},
 }};
 

@@ -119,7 +119,7 @@ Given read_given(const ScriptCall& call, TableReader& reader) {
   }
   for (std::size_t i = 0; i < items.size(); ++i) {
     if (const auto* name = std::get_if<std::string>(&items[i])) given.files.push_back(find_input(call, *name));
-    else reader.add_problem("entry " + std::to_string(i + 1) + ": expected one surface, or names of files, not " + std::string(type_text(items[i])));
+    else reader.add_problem("entry " + std::to_string(i + 1) + ": expected one surface or names of files, not " + std::string(type_text(items[i])));
   }
   if (items.empty()) reader.add_problem("needs a surface or the name of a file: " + std::string(k_inspect_usage));
   return given;
@@ -176,19 +176,18 @@ ScriptValue inspect(const ScriptCall& call) {
 std::string inspect_help() {
   volmesh::InspectOptions limits;
   return options_help(sterna::options_of(limits)) +
-         "flow = flow{ ... }: the first height is compared with its y+. output = \"trouble.vtu\": the surface with predicted heights, visibility angles, gaps "
-         "and what was found; \"trouble.png\": a picture\n"
-         "and what volume_mesh takes, first_height too if the layer is to be predicted; with names of files what read_surface takes\n"
-         "gives a table: ok (nothing is an error), errors, warnings, notes, coverage, compressed, collapsed (predicted shares of the area), findings = { { "
-         "kind, severity, count, share, value, limit, unit, at, patch, "
-         "text, advice, places = { { at, patch, value, what } } } }, preparation = { needed (none, repair, wrap, remesh, beyond), reason, at, command, script, "
-         "hint, seconds (of one thread, about), basis, remesh (advised, perhaps after repair), needle_share }\n";
+         "flow = flow{ ... }: compares the first height with y+ in this flow. output = \"trouble.vtu\": writes the surface with predicted heights, visibility "
+         "angles, gaps and findings; \"trouble.png\": a picture\nThe options of volume_mesh are taken as well; without first_height the layer is not "
+         "predicted. With names of files the options of read_surface are taken, too\nReturns a table: ok (nothing is an error), errors, warnings, notes, "
+         "coverage, compressed, collapsed (predicted shares of the area), findings = { { kind, severity, count, share, value, limit, unit, at, patch, text, "
+         "advice, places = { { at, patch, value, what } } } }, preparation = { needed (none, repair, wrap, remesh, beyond), reason, at, command, script, hint, "
+         "seconds (of one thread, about), basis, remesh (advised, perhaps after repair), needle_share }\n";
 }
 
 constexpr std::array<ScriptVerb, 1> k_inspect_verbs = {{
     {"inspect", k_inspect_usage,
-     "Predicts in seconds what volume_mesh will make of a surface: what it refuses, where layers get low, where cells get bad, with a line of advice each.",
-     inspect, inspect_help, true, "inspection"},
+     "Predicts within seconds how volume_mesh will treat a surface: reasons to refuse it, low layers, bad cells, each with a line of advice.", inspect,
+     inspect_help, true, "inspection"},
 }};
 
 }  // namespace

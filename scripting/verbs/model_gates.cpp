@@ -22,7 +22,7 @@ struct Schema<scripting::SurfaceCheckOptions> {
   using O = scripting::SurfaceCheckOptions;
   static constexpr std::string_view stage = "check";
   static constexpr std::array fields = {
-      Field<O>{.name = "strict", .member = &O::strict, .help = "a gate that FAILs is an error"},
+      Field<O>{.name = "strict", .member = &O::strict, .help = "treat a gate that FAILs as an error"},
   };
 };
 
@@ -35,11 +35,11 @@ void tell_what_was_left_out(const surfmesh::Deviation& deviation, const RunConte
   if (!deviation.unknown.empty()) {
     std::string names;
     for (const std::string& name : deviation.unknown) names += (names.empty() ? "\"" : ", \"") + name + "\"";
-    context.warn("G17, G18: walls of the mesh that the model's surface has not by name are not measured: " + names);
+    context.warn("G17, G18: walls of the mesh whose names the model's surface does not have are not measured: " + names);
   }
   if (deviation.n_beside > 0)
-    context.info("G18: at " + count_text(deviation.n_beside) + " facets the model has no normal (poles, tips): that beside the place was taken");
-  if (deviation.n_without > 0) context.warn("G18: " + count_text(deviation.n_without) + " facets were not compared: the model has no normal there, nor beside");
+    context.info("G18: at " + count_text(deviation.n_beside) + " facets the model has no normal (poles, tips): a normal nearby was taken");
+  if (deviation.n_without > 0) context.warn("G18: " + count_text(deviation.n_without) + " facets were not compared: the model has no normal there or nearby");
 }
 
 std::string surface_check_help() {
@@ -63,8 +63,9 @@ ScriptValue check_surface(const ScriptCall& call) {
   for (const GateResult& gate : {deviation.distance, deviation.normal}) text += to_text(gate);
   call.session.print(text);
   if (!options.strict) return surface;
-  ErrorInfo info{
-      .code = ErrorCode::mesh_invalid, .attempted = call.attempted(), .problem = "the surface is not on its model within the hard limits of G17 and G18"};
+  ErrorInfo info{.code = ErrorCode::mesh_invalid,
+                 .attempted = call.attempted(),
+                 .problem = "the surface deviates from its model by more than the hard limits of G17 and G18"};
   for (const GateResult& gate : {deviation.distance, deviation.normal}) {
     if (gate.state != GateState::fail) continue;
     info.n_places += gate.n_beyond_hard;
@@ -80,10 +81,9 @@ void require_model_wall(const SurfaceValue& wall, const std::string& attempted) 
   if (wall.model_wall) return;
   throw Error({.code = ErrorCode::bad_argument,
                .attempted = attempted,
-               .problem = "the surface does not know the model it is to be compared with",
-               .hint = "give the surface that surface_mesh{ model } made in this run, before half{ } or side by side; for a mesh of another run make it again, "
-                       "its edges need not be the same: "
-                       "wall = surface_mesh{ read_cad \"model.step\" }"});
+               .problem = "the surface has no model to be compared with",
+               .hint = "give the surface that surface_mesh{ model } made in this run, before half{ } or joining with other surfaces; for a mesh of another run "
+                       "make a surface again, its edges may differ: wall = surface_mesh{ read_cad \"model.step\" }"});
 }
 
 void measure_on_model(const HybridMesh& mesh, const SurfaceValue& wall, const GateTable& limits, CheckReport& report, const RunContext& context) {
@@ -96,7 +96,7 @@ void measure_on_model(const HybridMesh& mesh, const SurfaceValue& wall, const Ga
 const ScriptVerb k_check_surface = {
     "surface:check",
     "wall:check()",
-    "Compares a surface that surface_mesh made with its model: distance of its nodes (G17) and turn of its triangles (G18), with the worst places.",
+    "Compares a surface of surface_mesh with its model: distance of nodes (G17) and angle of triangles (G18), with the worst locations.",
     check_surface,
     surface_check_help,
     true,

@@ -62,7 +62,7 @@ struct Schema<scripting::RotateOptions> {
                .unit = Unit::radian,
                .min = -scripting::k_turn,
                .max = scripting::k_turn,
-               .help = "right-handed about `axis`, in place of the three others"},
+               .help = "right-handed rotation about `axis`, instead of pitch, yaw and roll"},
   };
 };
 template <>
@@ -70,7 +70,7 @@ struct Schema<scripting::ScaleOptions> {
   using O = scripting::ScaleOptions;
   static constexpr std::string_view stage = "scale";
   static constexpr std::array fields = {
-      Field<O>{.name = "factor", .member = &O::factor, .min = 1e-9, .max = 1e9, .help = "of all lengths", .required = true},
+      Field<O>{.name = "factor", .member = &O::factor, .min = 1e-9, .max = 1e9, .help = "scale factor of all lengths", .required = true},
   };
 };
 
@@ -226,7 +226,7 @@ ScriptValue rename_model(const ScriptCall& call) {
   for (const auto& [from, value] : table.fields) {
     reader.field(from);
     const auto* to = std::get_if<std::string>(&value);
-    if (!to || to->empty()) reader.add_problem(from + ": expected the new name, not " + std::string(to ? "an empty text" : type_text(value)));
+    if (!to || to->empty()) reader.add_problem(from + ": expected a new name, not " + std::string(to ? "an empty string" : type_text(value)));
     if (std::find(known.begin(), known.end(), from) == known.end() && !is_stand_in(call, handle)) {
       const std::string nearest = nearest_name(from, known);
       reader.add_problem("no component and no face is named \"" + from + "\"" + (nearest.empty() ? "" : ", did you mean \"" + nearest + "\"?"));
@@ -280,7 +280,7 @@ ScriptValue select_model(const ScriptCall& call) {
   TableReader reader(table, call.attempted());
   const std::vector<ScriptValue>& items = reader.items();
   const auto* pattern = items.size() == 1 ? std::get_if<std::string>(&items.front()) : nullptr;
-  if (!pattern) reader.add_problem("expected one name of components, '*' for any text: model:select \"wing*\"");
+  if (!pattern) reader.add_problem("expected a name of components, with '*' for any characters: model:select \"wing*\"");
   reader.finish();
   return changed(model, select_components(model->model, *pattern, call.attempted()), "select");
 }
@@ -316,7 +316,7 @@ ScriptValue measure_verb(const ScriptCall& call) {
   auto wings = std::make_shared<ScriptTable>();
   for (const WingReference& w : m.wings) wings->fields[w.name] = wing_table(w);
   result->fields["wings"] = TableHandle(wings);
-  if (!m.no_wings.empty()) call.session.context.warn(call.attempted() + ": no reference data of wings, which components as data have: " + m.no_wings);
+  if (!m.no_wings.empty()) call.session.context.warn(call.attempted() + ": no reference data of wings, which only wings defined as data have: " + m.no_wings);
   return result;
 }
 
@@ -363,7 +363,7 @@ std::string write_help() {
 std::string deform_help() {
   SampledMapOptions function;
   RadialMapOptions radial;
-  return "of a function:\n" + options_help(sterna::options_of(function)) + "of displacements at points:\n" + options_help(sterna::options_of(radial));
+  return "for a function:\n" + options_help(sterna::options_of(function)) + "for displacements at points:\n" + options_help(sterna::options_of(radial));
 }
 template <class Options>
 std::string model_help_of() {
@@ -421,24 +421,27 @@ ScriptValue model_field(const ScriptCall& call) {
 }
 
 constexpr std::array<ScriptVerb, 12> k_methods = {{
-    {"model:write", k_write_usage, "Writes STEP, IGES, BREP, or, for models that are components as data, sumo's .smx.", write_model_files, write_help, true,
-     "self"},
-    {"model:move", k_move_usage, "The model moved, metres.", move_model, nullptr, true, "model"},
-    {"model:rotate", k_rotate_usage, "The model turned: x points aft, y to starboard, z up.", rotate_model, rotate_help, true, "model"},
-    {"model:scale", k_scale_usage, "The model larger or smaller.", scale_model, model_help_of<ScaleOptions>, true, "model"},
-    {"model:mirror", k_mirror_usage, "The mirror image, in the plane y = 0 unless said otherwise; left and right change in names.", mirror_model, nullptr, true,
-     "model"},
-    {"model:deform", k_deform_usage, "The model deformed, without refit: by a function that gives displacements, or by displacements at points.", deform_model,
-     deform_help, true, "model"},
-    {"model:deflect", k_deflect_model_usage, "A model of read_smx or read_cpacs with control surfaces turned: real deflections, as wing:deflect{} makes them.",
-     deflect_model, deflect_model_help, true, "model"},
-    {"model:rename", k_rename_usage, "The model with other names of components, solids and patches.", rename_model, nullptr, true, "model"},
-    {"model:kinds", k_kinds_usage, "The model with other kinds of patches: wall, slip, symmetry, inflow, outflow, farfield, interface.", set_kinds, nullptr,
+    {"model:write", k_write_usage, "Writes STEP, IGES or BREP, or sumo's .smx for models whose components are defined as data.", write_model_files, write_help,
+     true, "self"},
+    {"model:move", k_move_usage, "Returns the model moved, in metres.", move_model, nullptr, true, "model"},
+    {"model:rotate", k_rotate_usage, "Returns the model rotated: x points aft, y to starboard, z up.", rotate_model, rotate_help, true, "model"},
+    {"model:scale", k_scale_usage, "Returns the model scaled.", scale_model, model_help_of<ScaleOptions>, true, "model"},
+    {"model:mirror", k_mirror_usage, "Returns the mirror image, by default in the plane y = 0; left and right are exchanged in names.", mirror_model, nullptr,
      true, "model"},
-    {"model:select", "model:select \"Body*\"  or  model[\"Body*\"]", "The components of that name as a model.", select_model, nullptr, true, "model"},
-    {"model:measures", "model:measures()", "Areas, volumes and boxes of the model, its solids and components, and reference data of its wings, as a table.",
-     measure_verb, nullptr, true, "table"},
-    {"model:info", "model:info()", "Prints the same, and where the model is open.", info_verb, nullptr, true},
+    {"model:deform", k_deform_usage,
+     "Returns the model deformed by a function that gives displacements, or by displacements at points. The geometry is not refitted.", deform_model,
+     deform_help, true, "model"},
+    {"model:deflect", k_deflect_model_usage, "Returns a model of read_smx or read_cpacs with control surfaces deflected geometrically, as by wing:deflect{}.",
+     deflect_model, deflect_model_help, true, "model"},
+    {"model:rename", k_rename_usage, "Returns the model with other names of components, solids and patches.", rename_model, nullptr, true, "model"},
+    {"model:kinds", k_kinds_usage, "Returns the model with other kinds of patches: wall, slip, symmetry, inflow, outflow, farfield, interface.", set_kinds,
+     nullptr, true, "model"},
+    {"model:select", "model:select \"Body*\"  or  model[\"Body*\"]", "Returns the components with a matching name as a model.", select_model, nullptr, true,
+     "model"},
+    {"model:measures", "model:measures()",
+     "Returns a table with areas, volumes and bounding boxes of the model, its solids and components, and reference data of its wings.", measure_verb, nullptr,
+     true, "table"},
+    {"model:info", "model:info()", "Prints areas, volumes, bounding boxes and reference data, and where the model is open.", info_verb, nullptr, true},
 }};
 
 }  // namespace

@@ -40,8 +40,8 @@ ScriptValue repair_parts(const ScriptCall& call) {
 
 constexpr std::array<ScriptVerb, 1> k_repair_verbs = {{
     {"repair", k_repair_usage,
-     "Closes seams and holes of surfaces, cuts facets that cross and keeps the outer hull, drops sheets and inner walls, recognises half models; as little as "
-     "possible, each change told. What is sound stays as it is.",
+     "Closes seams and holes of surfaces, cuts crossing facets, keeps the outer hull, removes sheets and inner walls, and recognises half models. Changes as "
+     "little as possible and reports each change.",
      repair_parts, repair_help, true, "surface"},
 }};
 

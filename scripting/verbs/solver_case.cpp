@@ -70,7 +70,7 @@ void find_half(const CaseOptions& options, int n_symmetry, CaseSite& site, CaseP
         fmt::format("the mesh has {} symmetry planes: is it a half model? give half = \"yes\" or \"no\", and the reference area accordingly", n_symmetry));
   if (site.is_half && std::abs(options.beta) > k_straight) problems.add("a half model has no sideslip (beta)");
   if (site.is_tunnel && (std::abs(options.alpha) > k_straight || std::abs(options.beta) > k_straight))
-    problems.add("in a tunnel the model is turned, not the flow: leave alpha and beta out");
+    problems.add("alpha and beta are not allowed in a tunnel: leave them out and rotate the model instead");
 }
 
 void find_monitored(const HybridMesh& mesh, const CaseOptions& options, CaseSite& site, CaseProblems& problems) {
@@ -93,7 +93,7 @@ void find_monitored(const HybridMesh& mesh, const CaseOptions& options, CaseSite
   for (const std::string& pattern : patterns)
     if (!used.contains(pattern)) problems.add("monitor: no patch has a name like \"" + pattern + "\" (" + names_hint(names_of_patches(mesh), pattern) + ")");
   site.is_internal = site.is_tunnel && site.monitored.empty() && patterns.empty();
-  if (site.monitored.empty() && patterns.empty() && !site.is_tunnel) problems.add("no wall is left whose forces count: name some with monitor");
+  if (site.monitored.empty() && patterns.empty() && !site.is_tunnel) problems.add("no wall is left for the forces: name walls with monitor");
 }
 
 /// Reports the verdict for the kind of solver that uses the measure, as a warning if a gate FAILs.
@@ -101,7 +101,7 @@ void report_verdict(const CheckReport& report, Measure measure, std::string_view
   for (const Consumer consumer : k_consumers) {
     if (!info_of(measure).consumers.has(consumer)) continue;
     const std::string text = fmt::format("the mesh for {}, {}: {}", solver, to_string(consumer), verdict_of(report, consumer));
-    if (report.quality_state(consumer) == GateState::fail) context.warn(text + "; `sterna check` lists the places");
+    if (report.quality_state(consumer) == GateState::fail) context.warn(text + "; `sterna check` lists the locations");
     else context.info(text);
   }
 }
@@ -119,8 +119,8 @@ CaseMeasure measured_worst(const HybridMesh& mesh, Measure measure, const CheckR
   if (own && !own->dual_checked) {
     ErrorInfo info{.code = ErrorCode::bad_argument,
                    .attempted = "making a case of " + std::string(solver),
-                   .problem = "the mesh does not conform, so no solver can take it",
-                   .hint = "sterna check tells where"};
+                   .problem = "the mesh is not conforming, so no solver can read it",
+                   .hint = "`sterna check` lists the locations"};
     if (!known->findings.empty()) info.add_place(known->findings.front().position, known->findings.front().what);
     throw Error(std::move(info));
   }
@@ -149,17 +149,17 @@ std::optional<HybridMesh> with_kinds(const HybridMesh& mesh, std::vector<CaseKin
   CaseProblems problems;
   for (const CaseKind& rule : kinds) {
     const std::string key = "kinds[\"" + rule.names + "\"]: ";
-    if (rule.kind == PatchKind::interface) problems.add(key + "an interface has cells on both sides, which only volume_mesh makes");
+    if (rule.kind == PatchKind::interface) problems.add(key + "a patch of kind interface has cells on both sides; only volume_mesh makes such patches");
     bool is_used = false;
     for (const PatchId p : mesh.patches.ids()) {
       if (!matches_glob(mesh.patches[p].name, rule.names)) continue;
       is_used = true;
       if (is_periodic(mesh, p) || mesh.patches[p].kind == PatchKind::interface)
         problems.add(key + "patch \"" + mesh.patches[p].name + "\" is " + (is_periodic(mesh, p) ? "a periodic side" : "a side of an actuator disc") +
-                     ", which stays one");
+                     "; its kind cannot be changed");
       changed.patches[p].kind = rule.kind;
     }
-    if (!is_used) problems.add(key + "no patch has such a name (" + names_hint(names_of_patches(mesh), rule.names) + ")");
+    if (!is_used) problems.add(key + "no patch has a matching name (" + names_hint(names_of_patches(mesh), rule.names) + ")");
   }
   problems.require_none(attempted);
   return changed;
@@ -170,12 +170,12 @@ void require_known_kinds(const std::set<std::string>& unknown, const std::vector
   std::erase_if(left,
                 [&](const std::string& name) { return std::ranges::any_of(kinds, [&](const CaseKind& rule) { return matches_glob(name, rule.names); }); });
   if (left.empty()) return;
-  throw Error(
-      {.code = ErrorCode::bad_argument,
-       .attempted = attempted,
-       .problem = "the kind of " + quoted_list(left) + " is not known: neither the mesh file nor a manifest beside it says what the boundary condition is",
-       .hint = "give it with --kind \"inlet=inflow\" --kind \"*=wall\" (in scripts kinds = { inlet = \"inflow\", [\"*\"] = \"wall\" }), read the .sterna "
-               "file instead, or put the mesh's manifest (.json) beside it"});
+  throw Error({.code = ErrorCode::bad_argument,
+               .attempted = attempted,
+               .problem = "the kind of " + quoted_list(left) + " is unknown: neither the mesh file nor a manifest beside it has the boundary conditions",
+               .hint =
+                   "give it with --kind \"inlet=inflow\" --kind \"*=wall\" (in scripts kinds = { inlet = \"inflow\", [\"*\"] = \"wall\" }), read the .sterna "
+                   "file instead, or put the mesh's manifest (.json) beside it"});
 }
 
 CaseSite case_site(const HybridMesh& mesh, const CaseOptions& options, CaseProblems& problems) {
@@ -227,7 +227,7 @@ std::optional<double> UsedBoundaries::pressure_jump(const Patch& disc, double ar
   const CaseBoundary given = of(disc);
   if (!is_automatic(given.pressure_jump)) return given.pressure_jump;
   if (!is_automatic(given.thrust)) return given.thrust / area;
-  problems.add("what the actuator disc \"" + disc.name + "\" does cannot be known: give boundaries = { [\"" + disc.name +
+  problems.add("the pressure jump of the actuator disc \"" + disc.name + "\" is unknown: give boundaries = { [\"" + disc.name +
                "\"] = { thrust = ... } } (N), or pressure_jump (Pa)");
   return std::nullopt;
 }
@@ -243,7 +243,7 @@ void UsedBoundaries::require_used(CaseProblems& problems) const {
     for (const Option& option : sterna::options_of(given)) {
       const bool is_given = !is_automatic(std::get<double>(option.get())) && option.get() != option.default_value;
       if (is_given && kind_with(option.name) != used->second)
-        problems.add(fmt::format("boundaries: {} of \"{}\" has no effect: it is for patches of kind {}, and this one is of kind {}", option.name, name,
+        problems.add(fmt::format("boundaries: {} of \"{}\" has no effect: it applies to patches of kind {}, and this patch is of kind {}", option.name, name,
                                  to_string(kind_with(option.name)), to_string(used->second)));
     }
   }

@@ -37,16 +37,21 @@ struct Schema<scripting::SourceNumbers> {
   using O = scripting::SourceNumbers;
   static constexpr std::string_view stage = "source";
   static constexpr std::array fields = {
-      Field<O>{.name = "size", .member = &O::size, .unit = Unit::metre, .min = 1e-12, .help = "edge length inside", .required = true},
-      Field<O>{.name = "size_end", .member = &O::size_end, .unit = Unit::metre, .min = 1e-12, .help = "edge length at its far end", .automatic = "size"},
-      Field<O>{.name = "radius", .member = &O::radius, .unit = Unit::metre, .min = 0.0, .help = "everything nearer is inside", .automatic = "0"},
-      Field<O>{.name = "length", .member = &O::length, .unit = Unit::metre, .min = 1e-12, .help = "how far it is swept along its direction", .required = true},
-      Field<O>{.name = "height", .member = &O::height, .unit = Unit::metre, .min = 0.0, .help = "thickness where it starts", .automatic = "0"},
+      Field<O>{.name = "size", .member = &O::size, .unit = Unit::metre, .min = 1e-12, .help = "edge length inside the region", .required = true},
+      Field<O>{.name = "size_end", .member = &O::size_end, .unit = Unit::metre, .min = 1e-12, .help = "edge length at the downstream end", .automatic = "size"},
+      Field<O>{.name = "radius",
+               .member = &O::radius,
+               .unit = Unit::metre,
+               .min = 0.0,
+               .help = "distance from the point or line within which the edge length applies",
+               .automatic = "0"},
+      Field<O>{.name = "length", .member = &O::length, .unit = Unit::metre, .min = 1e-12, .help = "length of the region along its direction", .required = true},
+      Field<O>{.name = "height", .member = &O::height, .unit = Unit::metre, .min = 0.0, .help = "thickness of the region at its start", .automatic = "0"},
       Field<O>{.name = "spread",
                .member = &O::spread,
                .min = 0.0,
                .max = 10.0,
-               .help = "half its growth in thickness over the distance from its start",
+               .help = "growth of half the thickness per distance from the start",
                .automatic = "0"},
   };
 };
@@ -251,20 +256,20 @@ std::string numbers_help() {
 }
 
 constexpr std::array<ScriptVerb, 6> k_source_verbs = {{
-    {"point", k_source_kinds[0].usage, "Short edges at a point, for the sources of volume_mesh and surface_mesh.", make_source_of_verb, numbers_help<0>, false,
+    {"point", k_source_kinds[0].usage, "Source of short edges at a point, for volume_mesh and surface_mesh.", make_source_of_verb, numbers_help<0>, false,
      "source"},
-    {"line", k_source_kinds[1].usage, "Short edges within a distance of a line, for the sources of volume_mesh and surface_mesh.", make_source_of_verb,
+    {"line", k_source_kinds[1].usage, "Source of short edges within a distance of a line, for volume_mesh and surface_mesh.", make_source_of_verb,
      numbers_help<1>, false, "source"},
     {"box", k_source_kinds[2].usage,
-     "Short edges in an axis-parallel box, for the sources of volume_mesh and surface_mesh; with edge or sides a farfield; else a solid box.",
+     "Axis-parallel box. With size: a source of short edges, for volume_mesh and surface_mesh; with edge, sides or floor: a farfield; otherwise a solid.",
      make_box_or_source, numbers_help<2>, false, "model"},
     {"cylinder", k_source_kinds[4].usage,
-     "Short edges in a cylinder, for the sources of volume_mesh and surface_mesh; with edge or sides a farfield; else a solid cylinder.",
+     "Cylinder. With size: a source of short edges, for volume_mesh and surface_mesh; with edge or sides: a farfield; otherwise a solid.",
      make_cylinder_or_source, numbers_help<4>, false, "model"},
-    {"wake", k_wake_usage, "Short edges behind a trailing edge, or behind a whole surface, for the sources of volume_mesh and surface_mesh.", make_wake,
-     wake_help, false, "source"},
-    {"size_samples", k_samples_usage, "Wanted edge lengths at the points of a VTU file, for the sources of volume_mesh and surface_mesh.", make_samples,
-     nullptr, false, "source"},
+    {"wake", k_wake_usage, "Source of short edges behind a trailing edge or behind a whole surface, for volume_mesh and surface_mesh.", make_wake, wake_help,
+     false, "source"},
+    {"size_samples", k_samples_usage, "Source of target edge lengths at the points of a VTU file, for volume_mesh and surface_mesh.", make_samples, nullptr,
+     false, "source"},
 }};
 
 }  // namespace
@@ -282,8 +287,8 @@ SizeSource source_of_text(const std::string& text) {
     for (const KindOfSource& known : k_source_kinds) names += (names.empty() ? "" : ", ") + std::string(known.verb);
     throw Error({.code = ErrorCode::bad_argument,
                  .attempted = attempted,
-                 .problem = "\"" + verb + "\" is no source",
-                 .hint = "there are " + names + "; such as \"sphere 0 0 0 radius=1 size=0.1\""});
+                 .problem = "\"" + verb + "\" is not a kind of source",
+                 .hint = "known are " + names + "; such as \"sphere 0 0 0 radius=1 size=0.1\""});
   }
   ScriptTable table;
   std::vector<double> numbers;
@@ -311,7 +316,9 @@ SizeSource source_of_text(const std::string& text) {
     else throw Error({.code = ErrorCode::bad_argument, .attempted = attempted, .problem = word + ": expected one number, or three for a direction"});
   }
   if (numbers.size() % 3 != 0)
-    throw Error({.code = ErrorCode::bad_argument, .attempted = attempted, .problem = "coordinates come in threes, not " + std::to_string(numbers.size())});
+    throw Error({.code = ErrorCode::bad_argument,
+                 .attempted = attempted,
+                 .problem = "the number of coordinates must be a multiple of three, not " + std::to_string(numbers.size())});
   for (std::size_t i = 0; i < numbers.size(); i += 3) table.items.push_back(point_at(numbers[i], numbers[i + 1], numbers[i + 2]));
   return source_of(table, *kind, attempted);
 }

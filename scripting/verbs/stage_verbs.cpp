@@ -29,7 +29,7 @@ Handle entry(TableReader& reader, std::size_t number, std::string_view what) {
 }
 
 void require_entries(TableReader& reader, std::size_t n) {
-  if (reader.items().size() > n) reader.add_problem("entry " + std::to_string(n + 1) + ": there is one too many");
+  if (reader.items().size() > n) reader.add_problem("entry " + std::to_string(n + 1) + ": unexpected, the verb takes fewer entries without names");
 }
 
 constexpr std::string_view k_envelope_usage = "make_envelope{ wall, layers = 35, first_height = 2e-6, max_growth = 1.35 }";
@@ -90,7 +90,8 @@ void refuse_layer_options(TableReader& reader) {
   volmesh::PrismOptions options;
   for (const Option& option : sterna::options_of(options))
     if (reader.field(std::string(option.name)))
-      reader.add_problem(std::string(option.name) + ": belongs to tetrahedra{ env, " + std::string(option.name) + " = ... }, which lays the layer out first");
+      reader.add_problem(std::string(option.name) + ": belongs to tetrahedra{ env, " + std::string(option.name) +
+                         " = ... }, which subdivides the layer before making tetrahedra");
 }
 
 ScriptValue make_prisms_verb(const ScriptCall& call) {
@@ -99,7 +100,7 @@ ScriptValue make_prisms_verb(const ScriptCall& call) {
   const auto envelope = entry<EnvelopeHandle>(reader, 1, "an envelope (from make_envelope or read_stages)");
   const auto tets = entry<TetrahedraHandle>(reader, 2, "tetrahedra (from tetrahedra{...} or read_stages)");
   require_entries(reader, 2);
-  if (envelope && tets && envelope->wall != tets->wall) reader.add_problem("entry 2: these tetrahedra are around another envelope");
+  if (envelope && tets && envelope->wall != tets->wall) reader.add_problem("entry 2: these tetrahedra were made around another envelope");
   volmesh::MeshCase options = tets ? tets->options : volmesh::MeshCase();
   const OptionTable schema = finish_options(options);
   reader.read_options(schema);
@@ -143,7 +144,7 @@ ScriptValue write_envelope_files(const ScriptCall& call) {
   const EnvelopeHandle& envelope = self<EnvelopeHandle>(call);
   const auto names = output_names(call);
   finish_checks(call);
-  if (envelope->step == volmesh::EnvelopeStep::classified) reject(call, "classes have no heights to write", "write the value of envelope.initial");
+  if (envelope->step == volmesh::EnvelopeStep::classified) reject(call, "a classification has no heights to write", "write the result of envelope.initial");
   for (const auto& name : names) {
     if (name.extension() == ".sterna") write_stage(*envelope, name, call.session.context);
     else write_surface(surface_of(*envelope), name, call.session.context);
@@ -193,21 +194,22 @@ std::string help_of() {
 }
 
 constexpr std::array<ScriptVerb, 4> k_stage_verbs = {{
-    {"make_envelope", k_envelope_usage, "The first step of volume_mesh by hand: the envelope of the layer.", make_envelope_verb, envelope_help, true,
-     "envelope"},
-    {"tetrahedra", k_tetrahedra_usage, "The second: the layer under an envelope, and tetrahedra around it to the farfield.", make_tetrahedra_verb,
-     help_of<tetrahedra_options>, true, "tetrahedra"},
-    {"prisms", k_prisms_usage, "The last: joins layer and tetrahedra to a checked mesh.", make_prisms_verb, help_of<finish_options>, true, "mesh"},
-    {"read_stages", k_read_stages_usage, "What a .sterna file holds, as fields surface, envelope, tetrahedra, mesh: any of them can be continued.",
-     read_stages_verb, nullptr, true, "stages"},
+    {"make_envelope", k_envelope_usage, "Makes the envelope of the layer: the first step of volume_mesh.", make_envelope_verb, envelope_help, true, "envelope"},
+    {"tetrahedra", k_tetrahedra_usage, "Makes the layer below an envelope, and tetrahedra from the envelope to the farfield: the second step of volume_mesh.",
+     make_tetrahedra_verb, help_of<tetrahedra_options>, true, "tetrahedra"},
+    {"prisms", k_prisms_usage, "Joins layer and tetrahedra to a checked mesh: the last step of volume_mesh.", make_prisms_verb, help_of<finish_options>, true,
+     "mesh"},
+    {"read_stages", k_read_stages_usage,
+     "Reads a .sterna file and returns the content as fields surface, envelope, tetrahedra and mesh. Meshing can continue from each of them.", read_stages_verb,
+     nullptr, true, "stages"},
 }};
 constexpr std::array<ScriptVerb, 1> k_envelope_methods = {{
-    {"envelope:write", "env:write(\"case.sterna\", \"env.vtu\")", "Writes the envelope with all that is needed to continue (.sterna), or its surface alone.",
-     write_envelope_files, nullptr, true, "self"},
+    {"envelope:write", "env:write(\"case.sterna\", \"env.vtu\")",
+     "Writes the envelope with all data needed to continue (.sterna), or the surface of the envelope only.", write_envelope_files, nullptr, true, "self"},
 }};
 constexpr std::array<ScriptVerb, 1> k_tetrahedra_methods = {{
-    {"tetrahedra:write", "tets:write \"case.sterna\"", "Writes layer and tetrahedra with all that is needed to continue.", write_tetrahedra_files, nullptr,
-     true, "self"},
+    {"tetrahedra:write", "tets:write \"case.sterna\"", "Writes layer and tetrahedra with all data needed to continue.", write_tetrahedra_files, nullptr, true,
+     "self"},
 }};
 
 }  // namespace

@@ -64,7 +64,7 @@ class Configuration {
     add_periodic();
     require_su2_flow(flow_, is_viscous_, problems_);
     if (is_automatic(reference_.area) && !site_.is_tunnel)
-      problems_.add("the reference area cannot be known: give reference_area (of the whole aircraft), or reference = the aircraft or its wing");
+      problems_.add("the reference area is unknown: give reference_area (of the whole aircraft), or reference = the aircraft or its wing");
     boundaries_.require_used(problems_);
     problems_.require_none("making a configuration of SU2");
     choose_wall_functions();
@@ -81,7 +81,8 @@ class Configuration {
     if (mesh_.request.is_known() && reynolds >= volmesh::k_least_reynolds && reynolds <= volmesh::k_largest_reynolds)
       y_plus = mesh_.request.first_height / volmesh::first_height({.y_plus = 1.0}, flow_).height;
     has_wall_functions_ = options_.wall_functions == "automatic" ? y_plus > k_least_y_plus : options_.wall_functions == "yes";
-    if (has_wall_functions_ && y_plus > 0.0) context_.info(fmt::format("SU2: wall functions, as the first height means y+ {:.3g}", y_plus));
+    if (has_wall_functions_ && y_plus > 0.0)
+      context_.info(fmt::format("SU2: wall functions are used, because the first height corresponds to y+ {:.3g}", y_plus));
   }
 
   /// The kinds of the patches of a pair are ignored: the flow leaves through one and enters through the other. SU2 takes the centre and angles of a rotation,
@@ -124,7 +125,7 @@ class Configuration {
     if (site_.is_tunnel && is_automatic(pressure)) pressure = flow_.pressure * heat(volmesh::k_heat_ratio / (volmesh::k_heat_ratio - 1.0));
     if (site_.is_tunnel && is_automatic(temperature)) temperature = flow_.temperature * heat(1.0);
     if (is_automatic(pressure) || is_automatic(temperature)) {
-      problems_.add("what comes out of the inflow \"" + mesh_.patches[p].name + "\" cannot be known: give boundaries = { [\"" + mesh_.patches[p].name +
+      problems_.add("the condition at the inflow \"" + mesh_.patches[p].name + "\" is unknown: give boundaries = { [\"" + mesh_.patches[p].name +
                     "\"] = { total_pressure = ..., total_temperature = ... } }" + (site_.is_tunnel ? ", or a flow with temperature and pressure" : ""));
       return;
     }
@@ -140,7 +141,7 @@ class Configuration {
     }
     const double pressure = site_.is_tunnel && is_automatic(given.pressure) ? flow_.pressure : given.pressure;
     if (is_automatic(pressure)) {
-      problems_.add("what goes into the outflow \"" + mesh_.patches[p].name + "\" cannot be known: give boundaries = { [\"" + mesh_.patches[p].name +
+      problems_.add("the condition at the outflow \"" + mesh_.patches[p].name + "\" is unknown: give boundaries = { [\"" + mesh_.patches[p].name +
                     "\"] = { pressure = ... } }" + (site_.is_tunnel ? ", or a flow with temperature and pressure" : ""));
       return;
     }
@@ -151,7 +152,7 @@ class Configuration {
     if (front_of_disc(mesh_, site_, p)) return;  // handled with its front
     const std::optional<PatchId> back = back_of_disc(mesh_, site_, p);
     if (!back) {
-      problems_.add("patch \"" + mesh_.patches[p].name + "\" is of kind interface and no actuator disc: its condition cannot be known");
+      problems_.add("patch \"" + mesh_.patches[p].name + "\" is of kind interface, but no side of an actuator disc: its boundary condition is unknown");
       return;
     }
     const double warmer = boundaries_.of(mesh_.patches[p]).temperature_jump;
@@ -166,10 +167,9 @@ class Configuration {
 
   void tell() {
     if (site_.is_internal)
-      context_.info(fmt::format("SU2: {}, a flow from {} to {}: the history has mass flow, pressures and their drop between these markers", solver_,
-                                list(openings(site_.inflows)), list(openings(site_.outflows))));
-    if (!has_area() && !site_.is_internal)
-      context_.warn("SU2: no reference area was given, so coefficients of forces count for 1 m^2: give --reference-area for others");
+      context_.info(fmt::format("SU2: {}, internal flow from {} to {}: the history has mass flow, pressures and the pressure drop between these markers",
+                                solver_, list(openings(site_.inflows)), list(openings(site_.outflows))));
+    if (!has_area() && !site_.is_internal) context_.warn("SU2: no reference area is given, so force coefficients refer to 1 m^2: give --reference-area");
     if (!is_viscous_ && !is_automatic(common_.wall_temperature)) context_.warn("SU2: wall_temperature has no effect: the solver is " + solver_);
     if (solver_ != "RANS" && (options_.turbulence != Su2Options{}.turbulence || options_.wall_functions == "yes"))
       context_.warn("SU2: turbulence and wall_functions have no effect: the solver is " + solver_);
@@ -178,7 +178,7 @@ class Configuration {
                               walls_.size() + (is_viscous_ ? 0 : euler_.size()), area(),
                               site_.is_half ? fmt::format(" (half of {:.6g}: half model)", reference_.area) : "",
                               reference_.source.empty() ? "" : " of " + reference_.source, length(), origin().x, origin().y, origin().z));
-    if (!unmonitored_.empty()) context_.info("SU2: walls of the tunnel, whose forces do not count: " + list(unmonitored_));
+    if (!unmonitored_.empty()) context_.info("SU2: walls of the tunnel, without forces: " + list(unmonitored_));
   }
 
   std::vector<std::string> openings(const std::vector<PatchId>& patches) const {
@@ -212,7 +212,7 @@ class Configuration {
 
   std::string reference_values() const {
     const Point o = origin();
-    const std::string note = !has_area()     ? " (no area was given: coefficients count for 1 m^2)"
+    const std::string note = !has_area()     ? " (no area is given: coefficients refer to 1 m^2)"
                              : site_.is_half ? " (half model: half the area of the aircraft)"
                                              : "";
     return title("Reference values" + note) + "REF_AREA= " + case_number(area()) + "\nREF_LENGTH= " + case_number(length()) +
@@ -261,8 +261,8 @@ class Configuration {
     const March march = worst >= limits.target ? k_usual_march : worst >= limits.hard ? k_careful_march : k_slow_march;
     const double cfl = is_automatic(options_.cfl) ? march.cfl : options_.cfl;
     const std::string because =
-        fmt::format("% The least orthogonality of a control volume (90 degrees: its faces stand on their edges) is {:.4g} degrees{}, {}.\n", worst * k_degrees,
-                    at_place(orthogonality_),
+        fmt::format("% The lowest orthogonality of a control volume (90 degrees: faces are normal to their edges) is {:.4g} degrees{}, {}.\n",
+                    worst * k_degrees, at_place(orthogonality_),
                     worst >= limits.target ? fmt::format("above {:g}: usual CFL numbers", limits.target * k_degrees)
                                            : fmt::format("below {:g}: lower CFL numbers, and more iterations of the linear solver",
                                                          (worst >= limits.hard ? limits.target : limits.hard) * k_degrees));
@@ -322,8 +322,8 @@ class Configuration {
 }  // namespace
 
 void require_su2_flow(const FlowState& flow, std::optional<bool> is_viscous, CaseProblems& problems) {
-  if (is_automatic(flow.mach)) problems.add("the Mach number cannot be known: give mach, or speed with the temperature of the air");
-  if (is_viscous.value_or(false) && is_automatic(flow.temperature)) problems.add("the temperature cannot be known: give altitude or temperature");
+  if (is_automatic(flow.mach)) problems.add("the Mach number is unknown: give mach, or speed with the temperature of the air");
+  if (is_viscous.value_or(false) && is_automatic(flow.temperature)) problems.add("the temperature is unknown: give altitude or temperature");
 }
 
 std::string su2_config(const HybridMesh& mesh, const Su2Options& options, const CaseOptions& common, const FlowState& flow, const CaseReference& reference,

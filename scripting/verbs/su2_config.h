@@ -45,24 +45,23 @@ struct Schema<scripting::Su2Options> {
   using O = scripting::Su2Options;
   static constexpr std::string_view stage = "su2_config";
   static constexpr std::array fields = {
-      Field<O>{
-          .name = "mesh", .member = &O::mesh, .help = "name of the mesh file as SU2 is to read it (.su2 or .cgns); empty: that of the configuration with .su2"},
+      Field<O>{.name = "mesh", .member = &O::mesh, .help = "name of the mesh file that SU2 reads (.su2 or .cgns); empty: name of the configuration with .su2"},
       Field<O>{.name = "solver",
                .member = &O::solver,
-               .help = "automatic: RANS where the mesh has layers, else EULER",
+               .help = "solver; automatic: RANS if the mesh has layers, otherwise EULER",
                .choices = "automatic EULER NAVIER_STOKES RANS"},
       Field<O>{.name = "turbulence", .member = &O::turbulence, .help = "turbulence model of RANS", .choices = "SA SST"},
       Field<O>{.name = "wall_functions",
                .member = &O::wall_functions,
-               .help = "of RANS on walls; automatic: where the first height that was asked for means a y+ above 20 in this flow",
+               .help = "wall functions of RANS; automatic: yes if the requested first height corresponds to a y+ above 20 in this flow",
                .choices = "automatic yes no"},
       Field<O>{.name = "cfl",
                .member = &O::cfl,
                .min = 0.01,
                .max = 1e6,
                .help = "CFL number at the start; SU2 adapts it",
-               .automatic = "10; 5 or 1 where faces of control volumes lie nearly along their edges"},
-      Field<O>{.name = "restart", .member = &O::restart, .help = "go on from restart_flow, which an earlier run has written"},
+               .automatic = "10; 5 or 1 if faces of control volumes are nearly parallel to their edges"},
+      Field<O>{.name = "restart", .member = &O::restart, .help = "continue from restart_flow, which an earlier run wrote"},
   };
 };
 

@@ -36,7 +36,7 @@ void write_su2_file(const MeshValue& mesh, Su2Options options, const CaseRequest
   const std::filesystem::path of_mesh = file.parent_path() / options.mesh;
   std::error_code none;
   context.info("wrote " + file.string() + " for the mesh " + options.mesh +
-               (std::filesystem::exists(of_mesh, none) ? "" : ", which is not there yet: mesh:write \"" + of_mesh.string() + "\""));
+               (std::filesystem::exists(of_mesh, none) ? "" : ", which does not exist yet: mesh:write \"" + of_mesh.string() + "\""));
 }
 
 ScriptValue write_su2_config(const ScriptCall& call) {

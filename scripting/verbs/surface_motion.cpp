@@ -30,9 +30,9 @@ void require_apart(const TriMesh& mesh, const RunContext& context) {
   const CrossingPairs found = find_crossings(mesh, context, k_most_pairs);
   if (found.total == 0) return;
   ErrorInfo info{.code = ErrorCode::self_intersection,
-                 .attempted = "putting surfaces side by side",
-                 .problem = std::to_string(found.total) + " pairs of their triangles cross",
-                 .hint = "union{ ... } unites surfaces that stick in each other"};
+                 .attempted = "joining surfaces",
+                 .problem = std::to_string(found.total) + " pairs of triangles cross",
+                 .hint = "union{ ... } unites surfaces that intersect"};
   info.n_places = found.total;
   for (std::size_t i = 0; i < std::min(k_named_pairs, found.pairs.size()); ++i) {
     const TriangleId a(found.pairs[i][0]), b(found.pairs[i][1]);
@@ -51,8 +51,9 @@ ScriptValue rotate_surface(const ScriptCall& call) {
 }
 
 constexpr std::array<ScriptVerb, 2> k_motions = {{
-    {"surface:move", k_surface_move_usage, "The surface moved, metres.", move_surface, nullptr, true, "surface"},
-    {"surface:rotate", k_surface_rotate_usage, "The surface turned: x points aft, y to starboard, z up.", rotate_surface, rotate_help, true, "surface"},
+    {"surface:move", k_surface_move_usage, "Returns the surface moved, in metres.", move_surface, nullptr, true, "surface"},
+    {"surface:rotate", k_surface_rotate_usage, "Returns the surface rotated: x points aft, y to starboard, z up.", rotate_surface, rotate_help, true,
+     "surface"},
 }};
 
 }  // namespace
@@ -97,7 +98,7 @@ SurfaceValue side_by_side(std::span<const SurfaceHandle> surfaces, const RunCont
   const Topology topology(all.mesh, context);
   all.report.n_components = static_cast<std::int64_t>(connected_components(all.mesh, topology).count);
   all.report.is_closed = topology.n_boundary_halfedges() == 0;
-  context.info("side by side: " + describe(all));
+  context.info("joined surfaces: " + describe(all));
   return all;
 }
 

@@ -50,7 +50,7 @@ std::function<double(const Point&)> read_size_function(TableReader& reader) {
   if (value == nullptr) return {};
   const auto* function = std::get_if<FunctionHandle>(value);
   if (function == nullptr) {
-    reader.add_problem("size: expected a function of x, y, z that returns the length of edges there in metres, not " + std::string(type_text(*value)) +
+    reader.add_problem("size: expected a function of x, y, z that returns the local edge length in metres, not " + std::string(type_text(*value)) +
                        "; max_edge is a number");
     return {};
   }
@@ -73,7 +73,7 @@ ScriptValue make_surface_mesh(const ScriptCall& call) {
     else
       reader.add_problem("entry " + std::to_string(i + 1) + ": expected a model (from read_cad, aircraft ...) or a component, not " +
                          std::string(type_text(items[i])) +
-                         (std::holds_alternative<SurfaceHandle>(items[i]) ? ", which is made of triangles already: volume_mesh takes it" : ""));
+                         (std::holds_alternative<SurfaceHandle>(items[i]) ? ", which has triangles already: pass it to volume_mesh" : ""));
   }
   if (items.empty()) reader.add_problem("needs a model: " + std::string(k_surface_mesh_usage));
   reader.read_options(schema);
@@ -94,11 +94,11 @@ std::string surface_mesh_help() {
   surfmesh::PatchSurfaceOptions rule;
   volmesh::PatchRule layers;
   return options_help(without_pairs(sterna::options_of(options))) +
-         "patches = { [\"wing*\"] = { ... } }, of faces with such names; of two patterns that match the one with more letters counts:\n" +
+         "patches = { [\"wing*\"] = { ... } }: options of faces with matching names; of two matching patterns the one with more letters applies:\n" +
          options_help(surface_and_layer_options(rule, layers)) +
-         "sources = { line{ {0,0,0}, {8,0,0}, size = 0.02 }, ... }: shorter edges there. size = function(x, y, z) return 0.1 end: edges at most that long. "
-         "periodic = "
-         "{ { \"left\", \"right\" }, ... }: flat faces that are each other's image, moved; their borders are cut alike, and volume_mesh makes them periodic\n";
+         "sources = { line{ {0,0,0}, {8,0,0}, size = 0.02 }, ... }: regions of short edges. size = function(x, y, z) return 0.1 end: largest edge length by "
+         "location. periodic = { { \"left\", \"right\" }, ... }: pairs of flat faces, each the translated image of the other; their borders get identical "
+         "nodes, and volume_mesh makes them periodic\n";
 }
 
 constexpr std::string_view k_remesh_usage =
@@ -145,16 +145,17 @@ ScriptValue make_remesh(const ScriptCall& call) {
 std::string remesh_help() {
   surfmesh::RemeshOptions options;
   return options_help(sterna::options_of(options)) +
-         "patches, sources and size as surface_mesh has them; of the rules for patches max_edge, min_edge, curvature_angle, chord_error, rows at "
-         "leading and trailing edges (leading_edge = { chordwise = 0.004 } is leading_edge_chordwise), and what volume_mesh takes\n";
+         "patches, sources and size as for surface_mesh. Options of patches: max_edge, min_edge, curvature_angle, chord_error, rows at leading and trailing "
+         "edges (leading_edge = { chordwise = 0.004 } is leading_edge_chordwise), and those of volume_mesh\n";
 }
 
 constexpr std::array<ScriptVerb, 2> k_surface_verbs = {{
     {"remesh", k_remesh_usage,
-     "New triangles for a surface, by curvature and sizes as surface_mesh on a model: needles go, sharp edges and patches stay, a coarse one of a smooth body "
-     "becomes smooth.",
+     "Remeshes a surface by curvature and sizes, as surface_mesh does for a model. Sliver triangles are removed, sharp edges and patches are kept, a coarse "
+     "surface of a smooth body becomes smooth.",
      make_remesh, remesh_help, true, "surface"},
-    {"surface_mesh", k_surface_mesh_usage, "Triangles on the faces of models, closed where the models are: the wall that volume_mesh takes.", make_surface_mesh,
+    {"surface_mesh", k_surface_mesh_usage,
+     "Meshes the faces of models with triangles, closed where the models are closed. The result is the wall for volume_mesh.", make_surface_mesh,
      surface_mesh_help, true, "surface"},
 }};
 

@@ -36,7 +36,7 @@ struct Schema<scripting::AssemblyOptions> {
   using O = scripting::AssemblyOptions;
   static constexpr std::string_view stage = "assembly";
   static constexpr std::array fields = {
-      Field<O>{.name = "unite", .member = &O::unite, .help = "make one closed surface of solids that touch (tunnels stay aside); else all stand side by side"},
+      Field<O>{.name = "unite", .member = &O::unite, .help = "unite solids that touch to one closed surface (except tunnels); otherwise all stay separate"},
   };
 };
 
@@ -49,8 +49,8 @@ struct Schema<scripting::TunnelSizeOptions> {
                .member = &O::max_edge,
                .unit = Unit::metre,
                .min = 1e-9,
-               .help = "longest edge on all its patches, whatever surface_mesh says for the model",
-               .automatic = "a twelfth of its shortest side"},
+               .help = "longest edge on all patches of the tunnel, independent of surface_mesh options for the model",
+               .automatic = "a twelfth of the shortest side of the tunnel"},
   };
 };
 
@@ -119,8 +119,8 @@ void read_patch(const ScriptValue& value, const std::string& key, const std::set
   // A table with layers for a side of a tunnel makes it a wall, whatever kind a less specific entry gives; a kind beside the layers is kept.
   const bool has_layers = layer.layers > 0;
   if (kind && *kind != PatchKind::wall && is_any(layer) && layer.layers != 0)
-    reader.add_problem(key + ": only walls carry layers, and its kind is " + std::string(to_string(*kind)) +
-                       ": leave the layer options out, or kind = \"wall\"");
+    reader.add_problem(key + ": only walls have layers, and this patch is of kind " + std::string(to_string(*kind)) +
+                       ": leave out the layer options, or set kind = \"wall\"");
   for (const std::string& name : names) {
     if (kind && *kind != PatchKind::wall) std::erase_if(tunnel.layers, [&](const volmesh::PatchRule& rule) { return rule.names == name; });
     sizes.names = layer.names = name;
@@ -140,7 +140,7 @@ void read_patches(TableReader& reader, ModelValue& tunnel) {
   if (!value) return;
   const auto* table = std::get_if<TableHandle>(value);
   if (!table || !(*table)->items.empty()) {
-    reader.add_problem("patches: expected a table by names of faces, { [\"tunnel*\"] = { max_edge = 0.1 } }");
+    reader.add_problem("patches: expected a table with names of faces as keys, { [\"tunnel*\"] = { max_edge = 0.1 } }");
     return;
   }
   std::vector<std::string> patterns;
@@ -172,10 +172,10 @@ void take_solid(const ModelHandle& solid, TableReader& reader, ModelValue& tunne
         face.role = role;
         is_used = true;
       }
-    if (!is_used) reader.add_problem(std::string(key) + ": expected the name of faces of the model, or a pattern of them");
+    if (!is_used) reader.add_problem(std::string(key) + ": no face has a matching name; expected a name of faces of the model, or a pattern");
   }
   if (tunnel.model.solids.size() != 1 || !tunnel.model.solids.raw().front().is_closed)
-    reader.add_problem("a tunnel is one closed solid; this is " + describe(tunnel));
+    reader.add_problem("a tunnel must be one closed solid; this model is " + describe(tunnel));
   else if (solid_measures(tunnel.model, SolidId(0)).volume > 0.0) {  // the fluid is inside
     turn_inside_out(tunnel.model);
     tunnel.parts.clear();
@@ -190,7 +190,7 @@ void read_through(TableReader& reader, ModelValue& tunnel) {
   const std::vector<ScriptValue> names = table ? (*table)->items : std::vector<ScriptValue>{*value};
   const bool are_texts = std::ranges::all_of(names, [](const ScriptValue& name) { return std::holds_alternative<std::string>(name); });
   if (!are_texts || (table && !(*table)->fields.empty())) {
-    reader.add_problem("through: expected names of components or faces that pass through walls, or patterns of them: through = { \"sting*\", \"strut\" }");
+    reader.add_problem("through: expected names or patterns of components or faces that pass through walls: through = { \"sting*\", \"strut\" }");
     return;
   }
   for (const ScriptValue& name : names) tunnel.through.push_back(std::get<std::string>(name));
@@ -249,14 +249,13 @@ std::string test_section_help() {
   OptionTable layer_options = sterna::options_of(layer);
   std::erase_if(layer_options, [](const Option& option) { return option.name == "names" || option.name == "kind"; });
   return options_help(sterna::options_of(options)) + options_help(sterna::options_of(size)) +
-         "position = {x, y, z}: where the model stands, in place of the origin. Walls: walls, floor, ceiling, left, right = \"slip\", \"symmetry\", \"wall\" "
-         "or a table (with layers it makes the side a wall); patches = { [\"outlet*\"] = { ... } } of any patch:\n"
-         "  kind: wall, slip, symmetry, inflow, outflow, farfield, interface\n" +
+         "position = {x, y, z}: position of the model, instead of the origin. walls, floor, ceiling, left, right = \"slip\", \"symmetry\", \"wall\" or a table "
+         "(with layers the side becomes a wall); patches = { [\"outlet*\"] = { ... } } for any patch:\n  kind: wall, slip, symmetry, inflow, outflow, "
+         "farfield, interface\n" +
          options_help(patch_rule_options(sizes)) + options_help(layer_options) +
-         "through = \"strut*\" or { \"strut*\", \"wing\" }: components or faces, by name, that pass through the walls and are cut off there, as stings made "
-         "by\n"
-         "sting{} may; whatever else reaches out of the tunnel is an error\n"
-         "test_section{ model, inflow = \"in*\", outflow = \"out*\", walls = ... }: a closed solid is the tunnel\n";
+         "through = \"strut*\" or { \"strut*\", \"wing\" }: components or faces, by name, that pass through the walls and are cut off there; stings made "
+         "by\nsting{} always may. Any other part outside the tunnel is an error\ntest_section{ model, inflow = \"in*\", outflow = \"out*\", walls = ... }: "
+         "uses a closed solid as the tunnel\n";
 }
 
 /// Returns all entries as models; notes a problem for any other value.
@@ -302,10 +301,11 @@ std::string assembly_help() {
 
 constexpr std::array<ScriptVerb, 2> k_tunnel_verbs = {{
     {"test_section", k_test_section_usage,
-     "Wind tunnel around the x axis, rectangular or round, or a solid of yours: surface_mesh{ model, tunnel } makes the fluid between the two.",
+     "Makes a wind tunnel around the x axis, rectangular, round, or from a closed solid. surface_mesh{ model, tunnel } meshes the boundary of the fluid "
+     "between model and tunnel.",
      make_test_section_verb, test_section_help, true, "model"},
-    {"assembly", k_assembly_usage, "Models and components as one model: united where they touch. Surfaces: side by side.", make_assembly, assembly_help, true,
-     "model or surface", true},
+    {"assembly", k_assembly_usage, "Joins models and components to one model, united where they touch. Surfaces are joined without union.", make_assembly,
+     assembly_help, true, "model or surface", true},
 }};
 
 }  // namespace

@@ -57,21 +57,31 @@ struct Schema<scripting::WingOptions> {
   using O = scripting::WingOptions;
   static constexpr std::string_view stage = "wing";
   static constexpr std::array fields = {
-      Field<O>{.name = "name", .member = &O::name, .help = "of component and patches; empty: the verb's"},
-      Field<O>{.name = "symmetric", .member = &O::symmetric, .help = "both halves: one component where the root stands at y = 0, else a mirror image"},
-      Field<O>{.name = "spanwise", .member = &O::spanwise, .help = "between sections: linear, or cubic between breaks", .choices = "linear cubic"},
-      Field<O>{.name = "sweep_at", .member = &O::sweep_at, .min = 0.0, .max = 1.0, .help = "part of the chord at which sweep is measured; 0 = leading edge"},
+      Field<O>{.name = "name", .member = &O::name, .help = "name of the component and its patches; empty: the name of the verb"},
+      Field<O>{.name = "symmetric", .member = &O::symmetric, .help = "make both halves: one component if the root is at y = 0, otherwise a mirror image"},
       Field<O>{
-          .name = "incidence", .member = &O::incidence, .unit = Unit::radian, .min = -1.6, .max = 1.6, .help = "nose up, of the whole wing about its position"},
+          .name = "spanwise", .member = &O::spanwise, .help = "interpolation between sections: linear, or cubic between breaks", .choices = "linear cubic"},
+      Field<O>{
+          .name = "sweep_at", .member = &O::sweep_at, .min = 0.0, .max = 1.0, .help = "fraction of the chord at which sweep is measured; 0 = leading edge"},
+      Field<O>{.name = "incidence",
+               .member = &O::incidence,
+               .unit = Unit::radian,
+               .min = -1.6,
+               .max = 1.6,
+               .help = "rotation of the whole wing about its position, nose up"},
       Field<O>{.name = "trailing_edge",
                .member = &O::trailing_edge,
                .unit = Unit::metre,
                .min = 0.0,
-               .help = "its thickness; 0 = sharp",
-               .automatic = "as the airfoils have it"},
-      Field<O>{.name = "tip", .member = &O::tip, .help = "end of the last section", .choices = "round flat"},
-      Field<O>{.name = "tip_height", .member = &O::tip_height, .min = 0.01, .max = 5.0, .help = "of a round tip, of the section's half thickness"},
-      Field<O>{.name = "root", .member = &O::root, .help = "end of the first section, where that is one", .choices = "flat round"},
+               .help = "thickness of the trailing edge; 0 = sharp",
+               .automatic = "the thickness that the airfoils have"},
+      Field<O>{.name = "tip", .member = &O::tip, .help = "shape of the wing tip at the last section", .choices = "round flat"},
+      Field<O>{.name = "tip_height",
+               .member = &O::tip_height,
+               .min = 0.01,
+               .max = 5.0,
+               .help = "height of a round tip, relative to half the thickness of the section"},
+      Field<O>{.name = "root", .member = &O::root, .help = "shape of the wing's end at the first section, if the wing ends there", .choices = "flat round"},
   };
 };
 template <>
@@ -79,37 +89,46 @@ struct Schema<scripting::WingSectionOptions> {
   using O = scripting::WingSectionOptions;
   static constexpr std::string_view stage = "section";
   static constexpr std::array fields = {
-      Field<O>{.name = "x", .member = &O::x, .unit = Unit::metre, .help = "of the leading edge, from the wing's position", .automatic = "from sweep"},
-      Field<O>{.name = "y", .member = &O::y, .unit = Unit::metre, .help = "of the leading edge", .automatic = "that of the section before, or from span"},
-      Field<O>{.name = "z", .member = &O::z, .unit = Unit::metre, .help = "of the leading edge", .automatic = "from dihedral"},
+      Field<O>{.name = "x",
+               .member = &O::x,
+               .unit = Unit::metre,
+               .help = "x coordinate of the leading edge, relative to the wing's position",
+               .automatic = "from sweep"},
+      Field<O>{
+          .name = "y", .member = &O::y, .unit = Unit::metre, .help = "coordinate of the leading edge", .automatic = "y of the previous section, or from span"},
+      Field<O>{.name = "z", .member = &O::z, .unit = Unit::metre, .help = "coordinate of the leading edge", .automatic = "from dihedral"},
       Field<O>{.name = "span",
                .member = &O::span,
                .unit = Unit::metre,
                .min = 1e-9,
-               .help = "distance from the section before along the panel, in place of y and z",
+               .help = "distance from the previous section along the panel, instead of y and z",
                .automatic = "from y and z"},
       Field<O>{.name = "chord",
                .member = &O::chord,
                .unit = Unit::metre,
                .min = 1e-9,
-               .help = "of the airfoil",
-               .automatic = "that of the section before; the first one needs it"},
+               .help = "chord of the airfoil",
+               .automatic = "value of the previous section; required in the first section"},
       Field<O>{.name = "sweep",
                .member = &O::sweep,
                .unit = Unit::radian,
                .min = -1.5,
                .max = 1.5,
-               .help = "of the panel from the section before, aft; see sweep_at"},
-      Field<O>{
-          .name = "dihedral", .member = &O::dihedral, .unit = Unit::radian, .min = -1.5708, .max = 1.5708, .help = "of the panel from the section before, up"},
-      Field<O>{.name = "twist", .member = &O::twist, .unit = Unit::radian, .min = -1.6, .max = 1.6, .help = "nose up, about the leading edge"},
+               .help = "sweep of the panel from the previous section, positive aft; see sweep_at"},
+      Field<O>{.name = "dihedral",
+               .member = &O::dihedral,
+               .unit = Unit::radian,
+               .min = -1.5708,
+               .max = 1.5708,
+               .help = "dihedral of the panel from the previous section, positive upwards"},
+      Field<O>{.name = "twist", .member = &O::twist, .unit = Unit::radian, .min = -1.6, .max = 1.6, .help = "rotation about the leading edge, nose up"},
       Field<O>{.name = "roll",
                .member = &O::roll,
                .unit = Unit::radian,
-               .help = "of the section about x: 90 deg for an upright fin",
-               .automatic = "half way between the panels beside it; 0 at the root of a symmetric wing"},
-      Field<O>{.name = "is_break", .member = &O::is_break, .help = "a kink of a wing that is cubic along its span"},
-      Field<O>{.name = "is_reversed", .member = &O::is_reversed, .help = "airfoil upside down"},
+               .help = "rotation of the section about x: 90 deg for an upright fin",
+               .automatic = "the mean of the adjacent panels; 0 at the root of a symmetric wing"},
+      Field<O>{.name = "is_break", .member = &O::is_break, .help = "make a kink at this section, for spanwise = \"cubic\""},
+      Field<O>{.name = "is_reversed", .member = &O::is_reversed, .help = "the airfoil is upside down"},
   };
 };
 template <>
@@ -117,18 +136,18 @@ struct Schema<scripting::WingletOptions> {
   using O = scripting::WingletOptions;
   static constexpr std::string_view stage = "winglet";
   static constexpr std::array fields = {
-      Field<O>{.name = "name", .member = &O::name, .help = "of a patch of its own, bend and tip included; empty: it is part of the wing's"},
-      Field<O>{.name = "height", .member = &O::height, .unit = Unit::metre, .min = 1e-9, .help = "along the winglet", .required = true},
+      Field<O>{.name = "name", .member = &O::name, .help = "name of a separate patch for the winglet with its bend and tip; empty: the wing's patch"},
+      Field<O>{.name = "height", .member = &O::height, .unit = Unit::metre, .min = 1e-9, .help = "length along the winglet", .required = true},
       Field<O>{.name = "cant", .member = &O::cant, .unit = Unit::radian, .min = -1.5708, .max = 1.5708, .help = "dihedral of the winglet; 90 deg = upright"},
-      Field<O>{.name = "taper", .member = &O::taper, .min = 0.01, .max = 2.0, .help = "chord of its tip, of the wing's tip"},
-      Field<O>{.name = "sweep", .member = &O::sweep, .unit = Unit::radian, .min = -1.5, .max = 1.5, .help = "aft, as the wing's"},
-      Field<O>{.name = "toe", .member = &O::toe, .unit = Unit::radian, .min = -0.5, .max = 0.5, .help = "twist of its tip"},
+      Field<O>{.name = "taper", .member = &O::taper, .min = 0.01, .max = 2.0, .help = "chord of the winglet's tip, relative to the chord of the wing's tip"},
+      Field<O>{.name = "sweep", .member = &O::sweep, .unit = Unit::radian, .min = -1.5, .max = 1.5, .help = "sweep of the winglet, positive aft"},
+      Field<O>{.name = "toe", .member = &O::toe, .unit = Unit::radian, .min = -0.5, .max = 0.5, .help = "twist of the winglet's tip"},
       Field<O>{.name = "bend",
                .member = &O::bend,
                .min = 0.0,
                .max = 0.9,
-               .help = "part of the winglet over which it bends up from the wing; 0 = a kink",
-               .automatic = "0.25, or more where the skin inside of so tight a bend would fold"},
+               .help = "fraction of the winglet's height over which it bends up from the wing; 0 = a kink",
+               .automatic = "0.25, or more if the skin on the inside of the bend would fold"},
   };
 };
 
@@ -199,19 +218,19 @@ void SectionList::place(GivenSection& s, const WingSectionOptions& o, const std:
   const Point before = is_first ? Point{} : sections.back().leading;
   const auto or_else = [](double value, double other) { return is_automatic(value) ? other : value; };
   if (!is_automatic(o.span)) {
-    if (is_first) reader_.add_problem(where + ": span: there is no section before");
+    if (is_first) reader_.add_problem(where + ": span: there is no previous section");
     if (!is_automatic(o.y) || !is_automatic(o.z)) reader_.add_problem(where + ": give y and z, or span and dihedral");
     s.leading.y = before.y + o.span * std::cos(o.dihedral);
     s.leading.z = before.z + o.span * std::sin(o.dihedral);
   } else {
     s.leading.y = or_else(o.y, before.y);
-    if (is_automatic(o.z) && std::abs(o.dihedral) > k_steep) reader_.add_problem(where + ": a panel this steep needs z, or span in place of y");
+    if (is_automatic(o.z) && std::abs(o.dihedral) > k_steep) reader_.add_problem(where + ": a panel this steep needs z, or span instead of y");
     s.leading.z = or_else(o.z, before.z + std::abs(s.leading.y - before.y) * std::tan(std::clamp(o.dihedral, -k_steep, k_steep)));
   }
   const double step = std::hypot(s.leading.y - before.y, s.leading.z - before.z);
   const double chord_before = is_first ? s.chord : sections.back().chord;
   s.leading.x = or_else(o.x, is_first ? 0.0 : before.x + options_.sweep_at * (chord_before - s.chord) + step * std::tan(o.sweep));
-  if (!is_first && step == 0.0) reader_.add_problem(where + ": stands where the one before it does; give y, z or span");
+  if (!is_first && step == 0.0) reader_.add_problem(where + ": has the location of the previous section; give y, z or span");
 }
 
 void SectionList::add(const ScriptValue& value, const std::string& where) {
@@ -226,7 +245,7 @@ void SectionList::add(const ScriptValue& value, const std::string& where) {
   reader.read_options(schema);
   const auto position = read_point(reader, "position");
   if (position && !(is_automatic(o.x) && is_automatic(o.y) && is_automatic(o.z) && is_automatic(o.span)))
-    reader.add_problem("position: stands in place of x, y, z and span");
+    reader.add_problem("position: replaces x, y, z and span; give either");
   GivenSection s{.name = where, .chord = o.chord, .twist = o.twist, .roll = o.roll, .is_break = o.is_break, .is_reversed = o.is_reversed};
   if (is_automatic(s.chord)) {
     if (sections.empty()) reader.add_problem("needs a chord");
@@ -269,9 +288,8 @@ double bend_of(const WingletOptions& o, const GivenSection& tip, double from, co
   if (is_automatic(bend)) bend = k_usual_bend >= least_allowed ? k_usual_bend : std::min(k_bend_margin * least, k_most_bend);
   if (bend >= least) return bend;
   reader.add_problem(
-      fmt::format("winglet: bend: turning by {:.3g} deg over {:.3g} of {:.4g} m, at {}, makes a radius of {:.3g} m; the wing is {:.3g} m thick on the inside "
-                  "there, so its skin would "
-                  "fold: {}",
+      fmt::format("winglet: bend: a turn by {:.3g} deg over {:.3g} of {:.4g} m, at {}, has a radius of {:.3g} m; the wing is {:.3g} m thick on the inside of "
+                  "the bend, so its skin would fold: {}",
                   std::abs(turn) * 180.0 / std::numbers::pi, bend, o.height, format_point(tip.leading + (position - Point{})), bend * o.height / std::abs(turn),
                   least * o.height / std::abs(turn),
                   least_allowed <= k_most_bend
@@ -300,7 +318,7 @@ void SectionList::add_winglet(const ScriptValue& value, const Point& position) {
     reader_.add_problem("winglet: " + error.info().problem);
     return;
   }
-  if (o.name == options_.name) reader_.add_problem("winglet: name: \"" + o.name + "\" is the wing's");
+  if (o.name == options_.name) reader_.add_problem("winglet: name: \"" + o.name + "\" is the name of the wing; choose another");
   if (sections.size() < 2) return;
   winglet_name = o.name;
   n_before_winglet = sections.size();
@@ -416,11 +434,11 @@ std::string wing_help() {
   constexpr const char* k_position = "  position = {x, y, z}\n      ";
   constexpr const char* k_airfoil = "  airfoil = \"naca23012\", a file's name, or airfoil{...}\n      ";
   return options_help(sterna::options_of(wing)) + k_position +
-         "of the whole wing; {0, 0, 0}\n  sections = { {...}, {...} }\n      required: two at least, from the root to the tip\n  winglet = {...}\n      goes "
-         "on from the last section; none\n" +
-         "each section:\n" + options_help(sterna::options_of(section)) + k_position + "of the leading edge, in place of x, y, z and span\n" + k_airfoil +
-         "that of the section before; the first one needs it\n" + "winglet:\n" + options_help(sterna::options_of(winglet)) + k_airfoil +
-         "of its tip; that of the wing's tip\n";
+         "position of the whole wing; {0, 0, 0}\n  sections = { {...}, {...} }\n      required: at least two, from the root to the tip\n  winglet = {...}\n    "
+         "  continues the wing behind the last section; none\n" +
+         "each section:\n" + options_help(sterna::options_of(section)) + k_position + "position of the leading edge, instead of x, y, z and span\n" +
+         k_airfoil + "value of the previous section; required in the first section\n" + "winglet:\n" + options_help(sterna::options_of(winglet)) + k_airfoil +
+         "airfoil of the winglet's tip; the airfoil of the wing's tip\n";
 }
 
 }  // namespace sterna::scripting

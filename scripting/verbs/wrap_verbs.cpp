@@ -37,7 +37,7 @@ ScriptValue wrap_parts(const ScriptCall& call) {
 
 constexpr std::array<ScriptVerb, 1> k_wrap_verbs = {{
     {"wrap", k_wrap_usage,
-     "Wraps surfaces, however torn, in one that is closed and near to them, with their sharp edges and patches; says what it closed and what vanished inside.",
+     "Wraps damaged surfaces in one closed surface close to them, with their sharp edges and patches. Reports what was closed and what disappeared inside.",
      wrap_parts, wrap_help, true, "surface"},
 }};
 

@@ -30,7 +30,7 @@ constexpr int k_stall_ms = 30'000;
 std::string new_secret() {
   std::array<unsigned char, k_secret_bytes> bytes{};
   if (getrandom(bytes.data(), bytes.size(), 0) != static_cast<ssize_t>(bytes.size()))
-    throw Error({.code = ErrorCode::internal, .attempted = "making the address of the page", .problem = "the system gives no random bytes"});
+    throw Error({.code = ErrorCode::internal, .attempted = "creating the address of the page", .problem = "the system does not provide random bytes"});
   std::string text;
   for (const unsigned char byte : bytes) {
     text += "0123456789abcdef"[byte >> 4];
@@ -208,8 +208,8 @@ PageServer::PageServer(int port, Answer answer) : parts_(std::make_unique<Parts>
   if (bound <= 0)
     throw Error({.code = ErrorCode::bad_argument,
                  .attempted = "serving the page on port " + std::to_string(port),
-                 .problem = "the port cannot be had: another program has it",
-                 .hint = "leave --port out, and a free one is taken"});
+                 .problem = "the port is not available: another program uses it",
+                 .hint = "omit --port to use a free port"});
   parts.address = "http://127.0.0.1:" + std::to_string(bound) + "/" + parts.secret + "/";
   parts.thread = std::thread([&parts] { parts.server.listen_after_bind(); });
 }

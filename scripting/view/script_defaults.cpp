@@ -10,7 +10,7 @@ namespace sterna::scripting {
 namespace {
 
 [[noreturn]] void refuse_default(const std::string& problem) {
-  throw Error({.code = ErrorCode::bad_argument, .attempted = "writing values into the script", .problem = problem, .hint = "change it by hand"});
+  throw Error({.code = ErrorCode::bad_argument, .attempted = "writing values into the script", .problem = problem, .hint = "edit the script manually"});
 }
 
 /// Returns the start of the value of `name` in the table of this args{}.
@@ -37,14 +37,14 @@ std::optional<std::size_t> find_value(const std::string& s, std::size_t begin, s
 /// Returns the range {from, to} of the default of `name`. Script and modules may have several args{}.
 std::pair<std::size_t, std::size_t> find_default(const std::string& s, const std::string& name) {
   const std::vector<TableCall> tables = table_calls(s, "args");
-  if (tables.empty()) refuse_default("it has no args{ ... }");
+  if (tables.empty()) refuse_default("the script has no args{ ... }");
   const TableCall* table = nullptr;
   std::size_t value = 0;
   for (const TableCall& one : tables) {
-    if (one.end == std::string::npos) refuse_default("its args{ is not closed");
+    if (one.end == std::string::npos) refuse_default("args{ of the script is not closed");
     const std::optional<std::size_t> found = find_value(s, one.begin, one.end, name);
     if (!found) continue;
-    if (table) refuse_default("it declares " + name + " twice");
+    if (table) refuse_default("the script declares " + name + " twice");
     table = &one;
     value = *found;
   }
@@ -56,7 +56,7 @@ std::pair<std::size_t, std::size_t> find_default(const std::string& s, const std
   };
   if (s.compare(value, 6, "number") == 0 && !is_word(s[value + 6])) {
     const std::size_t brace = skip_blanks(value + 6);
-    if (s[brace] != '{') refuse_default("the default of " + name + " is no plain value");
+    if (s[brace] != '{') refuse_default("the default of " + name + " is not a plain value");
     value = skip_blanks(brace + 1);
   }
   std::size_t to = look_through(s, value, [&](std::size_t at) { return at >= end || s[at] == ',' || s[at] == ';' || s[at] == '}'; });
@@ -84,7 +84,7 @@ std::string lua_value(const std::string& value, std::string_view before, const s
     if (value.find_first_of("\"\\\n\r") != std::string::npos) refuse_default("the text for " + name + " has quotes or line ends");
     return '"' + value + '"';
   }
-  if (!is_plain_default(value) || value.front() == '"' || value.front() == '\'') refuse_default("\"" + value + "\" is no value for " + name);
+  if (!is_plain_default(value) || value.front() == '"' || value.front() == '\'') refuse_default("\"" + value + "\" is not a value for " + name);
   // 12deg on the command line is 12*deg in Lua.
   const std::size_t unit = value.find_last_of("0123456789.") + 1;
   return unit == 0 || unit == value.size() || value[unit] == '*' ? value : value.substr(0, unit) + "*" + value.substr(unit);

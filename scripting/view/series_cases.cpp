@@ -67,7 +67,7 @@ SeriesCases read_series_cases(const fs::path& folder) {
   if (!results.is_object() || !results.contains("cases") || !results["cases"].is_array())
     throw Error({.code = ErrorCode::file_malformed,
                  .attempted = "showing " + folder.string(),
-                 .problem = std::string(k_results_file) + " in it is no table of a series"});
+                 .problem = std::string(k_results_file) + " in this folder is not the table of a series"});
   SeriesCases series;
   CasesJson list = CasesJson::array();
   std::string entries;
@@ -98,7 +98,7 @@ SeriesCases read_series_cases(const fs::path& folder) {
     throw Error({.code = ErrorCode::file_not_found,
                  .attempted = "showing " + folder.string(),
                  .problem = "no case of this series has a mesh or a surface",
-                 .hint = "let its function write one: mesh:write(p.name .. \".su2\")"});
+                 .hint = "let the function of the series write one: mesh:write(p.name .. \".su2\")"});
   series.script = script_of(entries, n);
   series.json = list.dump(-1, ' ', false, CasesJson::error_handler_t::replace);
   return series;

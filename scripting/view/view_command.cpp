@@ -41,8 +41,8 @@ void require_input(const std::filesystem::path& input) {
   if (std::filesystem::is_directory(input) && !is_series_folder(input))
     throw Error({.code = ErrorCode::unsupported_format,
                  .attempted = "showing " + input.string(),
-                 .problem = "it is a folder without series.json, so of no series that has run",
-                 .hint = "name a file in it"});
+                 .problem = "not a series folder: series.json is missing",
+                 .hint = "give a file of this folder"});
   if (!std::filesystem::exists(input))
     throw Error({.code = ErrorCode::file_not_found, .attempted = "showing " + input.string(), .problem = "there is no such file"});
 }
@@ -53,7 +53,7 @@ std::optional<ChildProcess> open_browser(const std::string& address, const Comma
   try {
     return ChildProcess({.words = {"xdg-open", address}, .descriptors = {}, .output = "/dev/null", .folder = {}});
   } catch (const Error&) {
-    context.run.info("no browser could be started (xdg-open): open the address by hand");
+    context.run.info("no browser could be started (xdg-open): open the address manually");
     return std::nullopt;
   }
 }
@@ -61,21 +61,23 @@ std::optional<ChildProcess> open_browser(const std::string& address, const Comma
 }  // namespace
 
 CLI::App* add_view_arguments(CLI::App& app, ViewCommand& view) {
-  CLI::App* command = app.add_subcommand("view", "the workbench: a page in the browser that shows what a script makes, and follows it as it is changed");
-  command->add_option("file", view.input, "case.lua; or the file of a model, a surface or a volume mesh; or the folder of a series that has run")->required();
+  CLI::App* command = app.add_subcommand("view", "open the workbench: a page in the browser that shows the results of a script and follows its changes");
+  command->add_option("file", view.input, "case.lua; or a file of a model, surface or volume mesh; or the folder of a series that was run")->required();
   command
       ->add_option_function<std::vector<std::string>>(
           "arguments",
           [&view](const std::vector<std::string>& texts) {
             for (const std::string& text : texts) view.arguments.push_back(split_argument(text));
           },
-          "what the script reads with args{ alpha = 0 }, e.g. alpha=4 height=2mm half=true")
+          "arguments that the script reads with args{ alpha = 0 }, e.g. alpha=4 height=2mm half=true")
       ->type_name("NAME=VALUE ...");
-  command->add_option("--port", view.port, "port on 127.0.0.1; any that is free unless given")->check(CLI::Range(1, k_last_port))->type_name("N");
+  command->add_option("--port", view.port, "port on 127.0.0.1; default: any free port")->check(CLI::Range(1, k_last_port))->type_name("N");
   command->add_flag("--no-browser", view.is_without_browser, "only print the address");
   add_set_option(*command, view.overrides);
-  command->add_option("--cache", view.cache, "keep results of stages in this folder; otherwise they are kept until the workbench ends")->type_name("FOLDER");
-  command->add_option("--cache-limit", view.cache_limit, "bytes in that folder, above which the results go that were not used for longest; 20e9 unless given")
+  command->add_option("--cache", view.cache, "store results of stages in this folder; default: until the workbench ends")->type_name("FOLDER");
+  command
+      ->add_option("--cache-limit", view.cache_limit,
+                   "largest size of that folder in bytes; when exceeded, the least recently used results are removed; default: 20e9")
       ->check(CLI::PositiveNumber)
       ->type_name("BYTES");
   command->add_flag("--worker", view.is_worker, "")->group("");  // not listed in the help: see view_worker.h
@@ -91,7 +93,7 @@ int execute(const ViewCommand& command, const CommandContext& context) {
   if (view_page().empty())
     throw Error({.code = ErrorCode::unsupported_format,
                  .attempted = "sterna view",
-                 .problem = "this build has no page: there was no npm, or it could not get the page's libraries",
+                 .problem = "this build has no page: npm was missing, or could not get the page's libraries",
                  .hint = "install npm and run cmake again"});
   require_input(command.input);
   const io::ScratchFolder session("view");
@@ -121,7 +123,7 @@ int execute(const ViewCommand& command, const CommandContext& context) {
                    .pictures = std::move(series.pictures)});
   const PageServer server(command.port, [&](const PageRequest& request) { return bench.answer(request); });
   context.console.print(server.address());
-  context.run.info("shows " + command.input.string() + "; Ctrl-C ends it");
+  context.run.info("shows " + command.input.string() + "; press Ctrl-C to end");
   const std::optional<ChildProcess> browser = command.is_without_browser ? std::nullopt : open_browser(server.address(), context);
   if (context.stops_itself) context.stops_itself(true);
   bench.follow(context.run.stop_token());

@@ -175,7 +175,7 @@ std::string model_scene(const ModelValue& value, const SceneOptions& options, co
     add_model_facts(scene, value, context);
     if (value.description) scene["parts"] = parts_json(*value.description);
   }
-  if (!facets.untrimmed.empty()) add_fact(scene, "drawn roughly", std::to_string(facets.untrimmed.size()) + " faces whose borders cross themselves");
+  if (!facets.untrimmed.empty()) add_fact(scene, "drawn approximately", std::to_string(facets.untrimmed.size()) + " faces with self-crossing borders");
   return block_of(scene, arrays);
 }
 
@@ -200,7 +200,7 @@ std::string surface_scene(const SurfaceValue& value, const SceneOptions& options
   add_fact(scene, "area", number_text(area, 5) + " m^2");
   if (value.report.is_closed) add_fact(scene, "volume", number_text(std::abs(volume), 5) + " m^3");
   add_fact(scene, "closed", value.report.is_closed ? "yes" : "no");
-  if (value.mesh_report) add_fact(scene, "least angle", number_text(value.mesh_report->min_angle * 180.0 / std::numbers::pi, 3) + " deg");
+  if (value.mesh_report) add_fact(scene, "smallest angle", number_text(value.mesh_report->min_angle * 180.0 / std::numbers::pi, 3) + " deg");
   for (const std::string& change : value.changes) add_fact(scene, "changed", change);
   return block_of(scene, arrays);
 }
@@ -209,8 +209,10 @@ std::string envelope_scene(const EnvelopeValue& value, const SceneOptions& optio
   TriMesh mesh = value.wall->mesh;
   const volmesh::Envelope& envelope = value.stage.envelope;
   if (envelope.height.size() != mesh.n_vertices())
-    throw Error(
-        {.code = ErrorCode::bad_argument, .attempted = "drawing an envelope", .problem = "it is not grown yet", .hint = "draw it behind envelope.grow"});
+    throw Error({.code = ErrorCode::bad_argument,
+                 .attempted = "drawing an envelope",
+                 .problem = "the envelope has no heights yet",
+                 .hint = "draw the result of envelope.initial"});
   SurfaceField height{.info = {.name = "layer_height",
                                .title = "height of the envelope",
                                .unit = "m",
@@ -290,7 +292,7 @@ std::string inspection_json(const ScriptValue& value, const RunContext& context)
   if (!surface)
     throw Error({.code = ErrorCode::bad_argument,
                  .attempted = "inspecting " + std::string(type_text(value)),
-                 .problem = "only surfaces are inspected",
+                 .problem = "only surfaces can be inspected",
                  .hint = "choose one in the tree"});
   return json_of(inspect_surface(**surface, {}, context), "surface");
 }
@@ -301,7 +303,7 @@ std::string cut_bytes(const ScriptValue& value, const std::string& plane_text, s
   if (!mesh || !plane)
     throw Error({.code = ErrorCode::bad_argument,
                  .attempted = "cutting by \"" + plane_text + "\"",
-                 .problem = mesh ? "it is no plane" : "only volume meshes have cells to cut",
+                 .problem = mesh ? "expected a plane" : "only volume meshes have cells to cut",
                  .hint = "x=1.2, or point=0,0,0 normal=0,1,0"});
   const MeshCut cut = cut_mesh((*mesh)->mesh, *plane, context);
   PageArrays arrays;

@@ -40,7 +40,7 @@ class Answers {
     while (!text.empty()) {
       const ssize_t n = write(k_view_answers, text.data(), text.size());
       if (n < 0 && errno == EINTR) continue;
-      if (n <= 0) throw Error({.code = ErrorCode::write_failed, .attempted = "answering the workbench", .problem = "it is gone"});
+      if (n <= 0) throw Error({.code = ErrorCode::write_failed, .attempted = "answering the workbench", .problem = "the workbench has ended"});
       text.remove_prefix(static_cast<std::size_t>(n));
     }
   }
@@ -318,7 +318,7 @@ class Worker {
     const auto id = job.value("id", std::size_t{0});
     const auto ask = job.value("ask", 0);
     if (job.value("run", -1) != number_ || id >= objects_.size())
-      return answers_.send({{"is", "failed"}, {"run", job.value("run", -1)}, {"id", id}, {"ask", ask}, {"text", "the run that made it is over"}});
+      return answers_.send({{"is", "failed"}, {"run", job.value("run", -1)}, {"id", id}, {"ask", ask}, {"text", "the run of this object has ended"}});
     if (what == "scene") return send_scene(id, false);
     try {
       const ScriptValue& value = objects_[id].value;

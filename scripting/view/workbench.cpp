@@ -201,11 +201,11 @@ class Workbench::Parts {
     const std::lock_guard lock(mutex_);
     for (const ShownObject& object : state_.objects)
       if (object.scene == scene && object.bytes) return {.type = "application/octet-stream", .body = object.bytes};
-    return refusal("this picture is gone", 410);
+    return refusal("this picture no longer exists", 410);
   }
 
   PageAnswer cases_answer() const {
-    if (settings_.cases.empty()) return refusal("this is no series", 404);
+    if (settings_.cases.empty()) return refusal("this is not a series", 404);
     return {.type = "application/json", .body = std::make_shared<const std::string>(settings_.cases)};
   }
 
@@ -214,7 +214,7 @@ class Workbench::Parts {
     const std::uint64_t picture = number_in(text);
     if (text.empty() || picture >= settings_.pictures.size()) return refusal("there is no such picture", 404);
     std::ifstream file(settings_.pictures[picture], std::ios::binary);
-    if (!file) return refusal("this picture is gone", 410);
+    if (!file) return refusal("this picture no longer exists", 410);
     return {.type = "image/png", .body = std::make_shared<const std::string>(std::istreambuf_iterator<char>(file), std::istreambuf_iterator<char>())};
   }
 
@@ -276,7 +276,7 @@ class Workbench::Parts {
     const auto found = std::ranges::find_if(state_.objects, [&](const ShownObject& object) { return object.key() == key; });
     if (found == state_.objects.end()) return refusal("there is no object " + key, 404);
     if (!worker_ || worker_->is_busy || worker_->is_gone || found->run != held_run_)
-      return refusal(std::string(std::string_view(what) == "cut" ? "the mesh" : "the surface") + " is not at hand: mesh again");
+      return refusal(std::string(std::string_view(what) == "cut" ? "the mesh" : "the surface") + " is not available: mesh again");
     const int ask = ++state_.n_asked;
     send_job({{"do", what}, {"run", found->run}, {"id", found->id}, {"plane", body.value("plane", "")}, {"ask", ask}});
     const auto is_there = [&] { return is_over_ || state_.asked.contains(ask) || state_.refused.contains(ask); };
@@ -287,17 +287,17 @@ class Workbench::Parts {
       return result;
     }
     const auto refused = state_.refused.find(ask);
-    return refusal(refused == state_.refused.end() ? "it takes too long" : refused->second);
+    return refusal(refused == state_.refused.end() ? "the worker does not respond in time" : refused->second);
   }
 
   PageAnswer save_values() {
-    if (settings_.is_made_script) return refusal("there is no script to write to");
+    if (settings_.is_made_script) return refusal("there is no script to write");
     std::vector<std::pair<std::string, std::string>> values;
     {
       const std::lock_guard lock(mutex_);
       values.assign(state_.values.begin(), state_.values.end());
     }
-    if (values.empty()) return refusal("all values are as the script has them");
+    if (values.empty()) return refusal("all values are those of the script already");
     io::write_whole(settings_.script, with_defaults(read_script(settings_.script), values));
     const std::lock_guard lock(mutex_);
     state_.values.clear();  // the script now has them; the file watcher detects the change
@@ -419,7 +419,7 @@ class Workbench::Parts {
     if (was_busy)
       fail("the process that ran the script ended " + (!WIFSIGNALED(status) ? "with status " + std::to_string(WEXITSTATUS(status))
                                                        : WTERMSIG(status) == SIGKILL
-                                                           ? std::string("because it was killed: was there too little memory?")
+                                                           ? std::string("because it was killed, perhaps for lack of memory")
                                                            : "by signal " + std::to_string(WTERMSIG(status)) + " (please report this)"));
   }
 

@@ -84,10 +84,10 @@ TEST_F(CommandLine, SurfacesInFormatsOfVolumesAreSurfaces) {
     EXPECT_EQ(back.status, k_exit_success) << back.errors;
     const ProcessResult check = sterna({"check", name});
     EXPECT_EQ(check.status, k_exit_failed) << check.output;
-    EXPECT_NE(check.errors.find("it holds a surface of 12 triangles and no cells"), std::string::npos) << check.errors;
+    EXPECT_NE(check.errors.find("the file has a surface of 12 triangles, but no cells"), std::string::npos) << check.errors;
     EXPECT_NE(check.errors.find("sterna info"), std::string::npos);
   }
-  EXPECT_NE(sterna({"check", "box.stl"}).errors.find("holds surfaces only"), std::string::npos);
+  EXPECT_NE(sterna({"check", "box.stl"}).errors.find("stores surfaces only"), std::string::npos);
 }
 
 TEST_F(CommandLine, AllWrongOptionsAreNamedTogether) {
@@ -235,7 +235,7 @@ TEST_F(CommandLine, ModelsAreConvertedUnitedDescribedAndChecked) {
   ASSERT_EQ(sterna({"run", "parts.lua", "-q"}).status, k_exit_success);
   ASSERT_EQ(sterna({"union", "a.step", "b.step", "-o", "c.step"}).status, k_exit_success);
   const ProcessResult info = sterna({"info", "c.step"});
-  for (const char* part : {"1 closed solid", "volume 1.25 m^3", "seen from above 1.5 m^2", "no open edge"})
+  for (const char* part : {"1 closed solid", "volume 1.25 m^3", "projected from above 1.5 m^2", "no open edge"})
     EXPECT_NE(info.output.find(part), std::string::npos) << part << " in\n" << info.output;
   const ProcessResult smx = sterna({"info", "body.smx"});
   EXPECT_NE(smx.output.find("\"body\", body"), std::string::npos) << smx.output;
@@ -249,14 +249,14 @@ TEST_F(CommandLine, ModelsAreConvertedUnitedDescribedAndChecked) {
   for (const char* part : {"4 open edges", "face \"sheet\"", "(1, 1, 1)", "OPEN"})
     EXPECT_NE(open.output.find(part), std::string::npos) << part << " in\n" << open.output;
   const std::vector<std::pair<std::vector<std::string>, std::string>> refused = {
-      {{"convert", "c.step", "c.smx"}, ".smx holds components as data"},
+      {{"convert", "c.step", "c.smx"}, ".smx requires components defined as data"},
       {{"convert", "c.step", "c.stl"}, "models are not written in this format"},
-      {{"convert", "c.step", "c.iges", "--surface"}, "--surface are for meshes"},
-      {{"convert", "box.stl", "box.obj", "--step-schema", "ap203"}, "is for models"},
-      {{"union", "a.step", "box.stl", "-o", "d.step"}, "box.stl is no model"},
+      {{"convert", "c.step", "c.iges", "--surface"}, "--surface apply to meshes"},
+      {{"convert", "box.stl", "box.obj", "--step-schema", "ap203"}, "applies to models"},
+      {{"union", "a.step", "box.stl", "-o", "d.step"}, "box.stl is not a model"},
       {{"union", "a.step", "b.step", "-o", "d.stl"}, "models are not written in this format"},
       {{"union", "a.step", "b.step", "-o", "d.step", "--strip-width", "3"}, "strip_width"},
-      {{"check", "a.step", "--json"}, "--json is for volume meshes"},
+      {{"check", "a.step", "--json"}, "--json applies to volume meshes"},
   };
   for (const auto& [arguments, text] : refused) {
     const ProcessResult result = sterna(arguments);

@@ -72,7 +72,7 @@ TEST_F(Farfield, MistakesAreToldAtTheirLine) {
   EXPECT_THAT(error_of("mesh(wall, box{ {0, 0}, {1, 1, 1}, edge = 2 })"), HasSubstr("case.lua:3: box: expected two points"));
   EXPECT_THAT(error_of("mesh(wall, box{ {-4, -4, -4}, {6, 4, 4}, edge = 2, sides = { x_min = 'inlet' } })"),
               HasSubstr("sides.x_min: \"inlet\" is not a patch kind"));
-  EXPECT_THAT(error_of("mesh(wall, 'dodecahedron')"), HasSubstr("\"dodecahedron\" is no shape"));
+  EXPECT_THAT(error_of("mesh(wall, 'dodecahedron')"), HasSubstr("\"dodecahedron\" is not a farfield shape"));
   EXPECT_THAT(error_of("mesh(wall, 'none')"), HasSubstr("encloses no fluid"));
   EXPECT_THAT(error_of("mesh(wall, 3)"), HasSubstr("farfield: expected a table"));
   EXPECT_THAT(error_of("half{ wall, axis = 'z', at = 7 }"), HasSubstr("case.lua:3: half at z = 7 m: no part of the surface is on the side that is kept"));
@@ -94,8 +94,8 @@ TEST_F(Farfield, TextsAreOptions) {
   const auto refused = [](const std::string& text, const std::string& problem) {
     test::expect_error(ErrorCode::bad_argument, problem, [&] { (void)farfield_of_text(text); });
   };
-  refused("", "\"\" is no shape");
-  refused("cube", "\"cube\" is no shape");
+  refused("", "\"\" is not a farfield shape");
+  refused("cube", "\"cube\" is not a farfield shape");
   refused("box 1 2 3", "3 coordinates, expected 6 or none");
   refused("sphere 1", "1 coordinates, expected 3 or none");
   refused("box -1 -1 -1 1 1 1 x_min=inlet", "\"inlet\" is not a patch kind");

@@ -150,7 +150,7 @@ TEST_F(FirstMesh, StepsAreContinuedToTheSameBytes) {
   const ProcessResult continued =
       sterna({"mesh", "env.sterna", "--wall-perpendicularity", "0.2", "--size-growth", "1.8", "--improve-rounds", "5", "-o", "command.su2"});
   EXPECT_EQ(continued.status, k_exit_success) << continued.errors;
-  EXPECT_NE(continued.errors.find("continuing behind the envelope of env.sterna"), std::string::npos) << continued.errors;
+  EXPECT_NE(continued.errors.find("continuing after the envelope of env.sterna"), std::string::npos) << continued.errors;
   EXPECT_TRUE(contents(folder / "command.su2") == whole);
   const auto without_name = [&](const std::string& name) {
     std::string manifest = contents(folder / (name + ".json"));
@@ -164,7 +164,7 @@ TEST_F(FirstMesh, StepsAreContinuedToTheSameBytes) {
   EXPECT_EQ(sterna({"check", "all.sterna"}).status, k_exit_success);
   const ProcessResult late = sterna({"mesh", "all.sterna", "--layers", "9", "-o", "late.su2"});
   EXPECT_NE(late.status, k_exit_success);
-  EXPECT_NE(late.errors.find("belongs to a step that is done already"), std::string::npos) << late.errors;
+  EXPECT_NE(late.errors.find("belongs to a step that is complete already"), std::string::npos) << late.errors;
 }
 
 TEST_F(FirstMesh, StepsThatDoNotFitAreRefused) {
@@ -185,7 +185,8 @@ TEST_F(FirstMesh, StepsThatDoNotFitAreRefused) {
   expect_told(env + "prisms{ env }", "entry 2: expected tetrahedra (from tetrahedra{...} or read_stages), not nothing");
   expect_told(env + "prisms{ env, tetrahedra{ env }, wall_perpendicularity = 0.3 }", "belongs to tetrahedra{ env, wall_perpendicularity = ... }");
   expect_told(env + "prisms{ make_envelope{ wall, layers = 4, first_height = 1e-3 }, tetrahedra{ read_stages('env.sterna').envelope } }", "env.sterna");
-  expect_told(env + "env:write 'env.sterna'\nprisms{ env, tetrahedra{ read_stages('env.sterna').envelope } }", "these tetrahedra are around another envelope");
+  expect_told(env + "env:write 'env.sterna'\nprisms{ env, tetrahedra{ read_stages('env.sterna').envelope } }",
+              "these tetrahedra were made around another envelope");
   expect_told(env + "tetrahedra{ env }:write 'tets.vtu'", "written to .sterna files only");
   expect_told(env + "print(env.hight)", "there is no \"hight\"");
   expect_told("volume_mesh{ read_surface 'box.stl', first_height = 1e-3, stages = 'a.su2' }", "written to .sterna files only");

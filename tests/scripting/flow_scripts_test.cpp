@@ -44,10 +44,10 @@ TEST_F(FlowScripts, YPlusPrintsItselfAndIsANumber) {
 
 TEST_F(FlowScripts, WrongFlowConditionsAreReportedAtTheirLine) {
   EXPECT_THAT(error("y_plus{ 1, mach = 0.5, altitude = 9e4, length = 1 }"), AllOf(HasSubstr("case.lua:1: y_plus"), HasSubstr("-5000 .. 84852 m")));
-  EXPECT_THAT(error("y_plus{ mach = 0.5, lenght = 1 }"), AllOf(HasSubstr("needs the wanted y+"), HasSubstr("did you mean \"length\"?")));
+  EXPECT_THAT(error("y_plus{ mach = 0.5, lenght = 1 }"), AllOf(HasSubstr("needs the target y+"), HasSubstr("did you mean \"length\"?")));
   EXPECT_THAT(error("y_plus{ 1, speed = 1, altitude = 0, length = 1*mm }"), HasSubstr("Reynolds number"));
   EXPECT_THAT(error("y_plus{ 1, law = 'karman', reynolds = 1e6, length = 1 }"), HasSubstr("ittc57"));
-  EXPECT_THAT(error("local x = 2 * flow{ reynolds = 1e6, length = 1 }"), HasSubstr("flow conditions are no number"));
+  EXPECT_THAT(error("local x = 2 * flow{ reynolds = 1e6, length = 1 }"), HasSubstr("flow conditions are not a number"));
   EXPECT_THAT(error("volume_mesh{ read_surface 'ball.off', first_height = flow{ reynolds = 1e6, length = 1 } }"),
               HasSubstr("flow conditions is not allowed here"));
 }
@@ -88,7 +88,7 @@ TEST_F(FlowScripts, FirstHeightsByFunctionOfLocation) {
   const std::string more = "layers = 4, max_growth = 1.2, farfield = sphere{ radius = 8 }, first_height = ";
   run(height + "volume_mesh{ read_surface 'ball.off', " + more + "h }:write(" + out("by_place.sterna") + ", " + out("by_place.su2") + ")");
   EXPECT_THAT(log_, HasSubstr("first heights by a function: 0.006667 m to 0.015 m"));
-  EXPECT_THAT(text_of("by_place.su2.json"), HasSubstr("a function of place"));
+  EXPECT_THAT(text_of("by_place.su2.json"), HasSubstr("a function of location"));
   const HybridMesh mesh = *io::read_sterna(folder_ / "by_place.sterna", RunContext()).mesh;
   ASSERT_GT(mesh.layers.n_lines(), 100u);
   for (std::uint32_t line = 0; line < mesh.layers.n_lines(); ++line) {
@@ -283,14 +283,14 @@ TEST_F(FlowScripts, Su2ConfigurationOfBodyInFarfield) {
   EXPECT_EQ(at("SOLUTION_FILENAME"), at("RESTART_FILENAME"));
   EXPECT_EQ(at("REYNOLDS_LENGTH"), "2");
   EXPECT_EQ(at("FREESTREAM_TEMPERATURE"), "288.15");
-  EXPECT_THAT(log_, HasSubstr("case.su2, which is not there yet"));
+  EXPECT_THAT(log_, HasSubstr("case.su2, which does not exist yet"));
 }
 
 TEST_F(FlowScripts, Su2ConfigurationRefusesUnknownData) {
   const std::string mesh = "local m = volume_mesh{ read_surface 'ball.off', layers = 2, first_height = 0.02, farfield = sphere{ radius = 8 } } m:su2_config{ " +
                            out("case.cfg") + ", ";
   EXPECT_THAT(error(mesh + "speed = 5, density = 1000, viscosity = 1e-3, length = 1 }"),
-              AllOf(HasSubstr("Mach number cannot be known"), HasSubstr("temperature cannot be known"), HasSubstr("reference area cannot be known")));
+              AllOf(HasSubstr("Mach number is unknown"), HasSubstr("temperature is unknown"), HasSubstr("reference area is unknown")));
   EXPECT_THAT(error(mesh + "mach = 0.5, altitude = 0, length = 1, reference_area = 1, boundaries = { prop = { thrust = 5 } } }"),
               HasSubstr("is called \"prop\""));
   EXPECT_THAT(error(mesh + "mach = 0.5, altitude = 0, length = 1, reference_area = 1, mesh = 'a.vtu' }"), HasSubstr("SU2 reads .su2 and .cgns"));
@@ -382,15 +382,14 @@ TEST(Su2Config, InternalFlowsNeedNoForcesAndNoArea) {
   for (const auto& [key, value] : keys) EXPECT_TRUE(k_su2_keys.contains(key)) << key;
   // A body in a farfield has forces, and coefficients an area.
   const HybridMesh outer = test::box_of_patches({{"wing", PatchKind::wall}, {"far", PatchKind::farfield}});
-  test::expect_error(ErrorCode::bad_argument, "reference area cannot be known",
-                     [&] { (void)su2_config(outer, {.mesh = "a.su2"}, {}, flow, {}, {}, RunContext()); });
+  test::expect_error(ErrorCode::bad_argument, "reference area is unknown", [&] { (void)su2_config(outer, {.mesh = "a.su2"}, {}, flow, {}, {}, RunContext()); });
 }
 
 TEST(Su2Config, DiscsRequireTheirData) {
   const HybridMesh mesh =
       test::box_of_patches({{"prop", PatchKind::interface}, {"prop.back", PatchKind::interface}, {"body", PatchKind::wall}, {"far", PatchKind::farfield}});
   const volmesh::FlowState flow = volmesh::flow_state({.length = 1.0, .mach = 0.2, .altitude = 0.0});
-  test::expect_error(ErrorCode::bad_argument, "what the actuator disc \"prop\" does cannot be known",
+  test::expect_error(ErrorCode::bad_argument, "the pressure jump of the actuator disc \"prop\" is unknown",
                      [&] { (void)su2_config(mesh, {.mesh = "a.su2"}, {}, flow, {.area = 1.0}, {}, RunContext()); });
   const auto keys = keys_of(su2_config(mesh, {.mesh = "a.su2"}, {}, flow, {.area = 1.0}, {{"prop", {.thrust = 50.0}}}, RunContext()));
   EXPECT_EQ(keys.at("MARKER_ACTDISK"), "( prop, prop.back, 50, 0, 0, 50, 0, 0 )");
@@ -484,7 +483,7 @@ TEST(PentagrowConfig, MistakesAreReportedTogetherWithLines) {
   EXPECT_THAT(message("NLayers = 20\n\nInitialHieght = 1e-5\n"), HasSubstr("a.cfg:3: unknown key \"InitialHieght\", did you mean \"InitialHeight\"?"));
   EXPECT_THAT(message("nlayers = 20\n"), HasSubstr("did you mean \"NLayers\"?"));
   EXPECT_THAT(message("NLayers = many\nSymmetry = maybe\nFarfieldCenter = 1 2\nnonsense\n"),
-              AllOf(HasSubstr("4 problems"), HasSubstr("a.cfg:1: NLayers: \"many\" is no number"), HasSubstr("a.cfg:2: Symmetry = maybe: expected y, yes"),
+              AllOf(HasSubstr("4 problems"), HasSubstr("a.cfg:1: NLayers: \"many\" is not a number"), HasSubstr("a.cfg:2: Symmetry = maybe: expected y, yes"),
                     HasSubstr("a.cfg:3: FarfieldCenter: found 2 numbers, expected 3"), HasSubstr("a.cfg:4: \"nonsense\" is not Key = value")));
   EXPECT_THAT(message("Pass = first\n"), HasSubstr("--stages"));
   EXPECT_THAT(message("OutputFormat = zml\n"), HasSubstr("use cgns, su2, bmsh or tau"));

@@ -142,7 +142,7 @@ TEST_F(GeometryScripts, Airfoils) {
               0.01);
   EXPECT_THAT(error("airfoil 'naca99'"), HasSubstr("naca99"));
   EXPECT_THAT(error("airfoil 'absent.dat'"), HasSubstr("absent.dat"));
-  EXPECT_THAT(error("airfoil{ 'naca0012', points = 30, within = 1e-4 }"), HasSubstr("give one of them"));
+  EXPECT_THAT(error("airfoil{ 'naca0012', points = 30, within = 1e-4 }"), HasSubstr("give only one of the two"));
 }
 
 TEST_F(GeometryScripts, BodiesHaveTheSizesOfTheirFrames) {
@@ -196,7 +196,7 @@ TEST_F(GeometryScripts, WingletMayBeASeparatePatch) {
                 "winglet=t }:model(), max_edge=0.1 } local n = 0 for i, p in ipairs(m.patches) do n = i end return n end "
                 "print(area{ height=0.5 }, area{ height=0.5, name='tip' })"),
             "1\t2\n");
-  EXPECT_THAT(error("wing{ name='w', " + sections + ", winglet={ name='w', height=0.5 } }"), HasSubstr("winglet: name: \"w\" is the wing's"));
+  EXPECT_THAT(error("wing{ name='w', " + sections + ", winglet={ name='w', height=0.5 } }"), HasSubstr("winglet: name: \"w\" is the name of the wing"));
 }
 
 TEST_F(GeometryScripts, WingletBendRadiusIsLimitedByThickness) {
@@ -206,7 +206,7 @@ TEST_F(GeometryScripts, WingletBendRadiusIsLimitedByThickness) {
   };
   // 7 % of the chord lies inside the bend, a right angle: a radius of 0.07 m, 0.11 m of arc.
   EXPECT_THAT(error(wing("height=0.25, cant=90*deg, bend=0.25")),
-              AllOf(HasSubstr("winglet: bend: turning by 90 deg over 0.25 of 0.25 m, at (10, 2, 1)"), HasSubstr("would fold: bend = 0.47 at least")));
+              AllOf(HasSubstr("winglet: bend: a turn by 90 deg over 0.25 of 0.25 m, at (10, 2, 1)"), HasSubstr("would fold: bend = 0.47 at least")));
   EXPECT_THAT(error(wing("height=0.1, cant=90*deg")), HasSubstr("would fold: height = 0.18"));
   EXPECT_EQ(run("local w = surface_mesh{ " + wing("height=0.25, cant=90*deg") + ":model(), max_edge=0.08, min_edge=0.01 } print(w.is_closed, w.crossings)"),
             "true\t0\n");
@@ -244,15 +244,15 @@ TEST_F(GeometryScripts, ControlSurfacesAreDeflectedOrNamed) {
             "true\ttrue\ttrue\nWing \"wing\": 2 sections, span 8 m, area 8 m^2, mean aerodynamic chord 1 m, both halves, aileron +25 deg\n");
   EXPECT_THAT(error(wing + "w:deflect{ 'a', from={0.6, 0.7}, angle=1*deg }"), HasSubstr("needs from and to, or hinge"));
   EXPECT_THAT(error(wing + "w:deflect{ 'a', from={0.6, 0.7}, to={0.9, 0.7} }"), HasSubstr("needs angle"));
-  EXPECT_THAT(error(wing + "w:deflect{ 'a', from={0.6, 0.7}, to={1.6, 0.7}, angle=1*deg }"), HasSubstr("to: 1.6 is beyond the wing"));
+  EXPECT_THAT(error(wing + "w:deflect{ 'a', from={0.6, 0.7}, to={1.6, 0.7}, angle=1*deg }"), HasSubstr("to: 1.6 is outside the wing"));
   EXPECT_THAT(error(wing + "w:control{ 'a', hinge={ {-0.5, 0.7}, {0.6, 1.7} } }"),
-              testing::AllOf(HasSubstr("hinge: -0.5 is beyond the wing"), HasSubstr("hinge: 1.7 is beyond the chord")));
-  EXPECT_THAT(error(wing + "w:control{ 'a', from={0.6, 0.7}, to={0.6, 0.8} }"), HasSubstr("same place along the span"));
+              testing::AllOf(HasSubstr("hinge: -0.5 is outside the wing"), HasSubstr("hinge: 1.7 is outside the chord")));
+  EXPECT_THAT(error(wing + "w:control{ 'a', from={0.6, 0.7}, to={0.6, 0.8} }"), HasSubstr("same fraction of the span"));
   EXPECT_THAT(error(wing + "w:deflect{ 'a', from={0.6, 0.7}, to={0.9, 0.7}, angle=10 }"), HasSubstr("write degrees as 40*deg"));
   EXPECT_THAT(error(wing + "w:control{ 'a', from={0.6, 0.7}, to={0.9, 0.7} } w:control{ 'a', from={0.1, 0.7}, to={0.2, 0.7} }"),
               HasSubstr("has a control surface \"a\" already"));
   EXPECT_THAT(error("boom{ from={0,0,0}, to={1,0,0}, diameter=0.1 }:control{ 'a', from={0.6, 0.7}, to={0.9, 0.7} }"),
-              HasSubstr("is for wings, not for a boom"));
+              HasSubstr("applies to wings, not to a boom"));
 }
 
 TEST_F(GeometryScripts, ComponentsAreFoundByListedNames) {
@@ -320,7 +320,7 @@ TEST_F(GeometryScripts, ControlSurfacesOfFilesAreDeflected) {
   EXPECT_THAT(error("read_smx{ '" + bjet.string() + "', deflections = { Elevatr = 5*deg } }"), HasSubstr("did you mean \"Elevator\"?"));
   EXPECT_THAT(error("read_smx{ '" + bjet.string() + "', deflections = { Elevator = 5 } }"), HasSubstr("write degrees as 40*deg"));
   EXPECT_THAT(error("read_smx{ '" + bjet.string() + "', deflections = { Elevator = { angel = 5*deg } } }"), HasSubstr("did you mean \"angle\"?"));
-  EXPECT_THAT(error("box{ {0,0,0}, {1,1,1} }:deflect{ Flap = 5*deg }"), HasSubstr("right after read_smx or read_cpacs"));
+  EXPECT_THAT(error("box{ {0,0,0}, {1,1,1} }:deflect{ Flap = 5*deg }"), HasSubstr("directly after read_smx or read_cpacs"));
 }
 
 TEST_F(GeometryScripts, HelpOfEveryVerbNamesItsOptions) {

@@ -120,13 +120,13 @@ TEST_F(PartScripts, TriangulatedModelInTunnelAtAnyAttitude) {
                                "= 8, first_height = 1e-4 } "
                                "print(wall.is_closed, m.coverage > 0.99) end");
   EXPECT_EQ(text, "true\ttrue\ntrue\ttrue\n");
-  EXPECT_THAT(error("local a = surface_mesh{ box{ {0,0,0}, {1,1,1} } } assembly{ a, a:move{ 0.1, 0.1, 0.1 } }"), HasSubstr("pairs of their triangles cross"));
+  EXPECT_THAT(error("local a = surface_mesh{ box{ {0,0,0}, {1,1,1} } } assembly{ a, a:move{ 0.1, 0.1, 0.1 } }"), HasSubstr("pairs of triangles cross"));
   EXPECT_THAT(error("surface_mesh{ box{ {0,0,0}, {1,1,1} } }:rotate{ pitch = 0.1, angle = 1 }"), HasSubstr("not both"));
 }
 
 TEST_F(PartScripts, GapsBetweenPartsRequireSizesInPlace) {
   run("local a = box{ {0,0,0}, {1,1,1} }:move{ 0.1, 0, 0 } local b = box{ {0,0,1.05}, {1,1,2} } surface_mesh{ a, b, max_edge = 0.3, gap_cells = 1 }");
-  EXPECT_THAT(log_, HasSubstr("gaps between parts ask for sizes"));
+  EXPECT_THAT(log_, HasSubstr("gaps between parts set edge lengths"));
   run("local a = box{ {0,0,0}, {1,1,1} }:move{ 0.1, 0, 0 } local b = box{ {0,0,1.05}, {1,1,2} } surface_mesh{ a, b, max_edge = 0.3 }");
   EXPECT_THAT(log_, Not(HasSubstr("gaps between parts")));
 }

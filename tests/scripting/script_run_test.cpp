@@ -145,8 +145,8 @@ TEST(ScriptRun, WakeSheetsAreCheckedWhereTheyAreMade) {
   EXPECT_EQ(run_text("local w = wake_sheet{ wing = 'main*', length = 1.5 } print(w.wing, w.length)"), "main*\t1.5\n");
   const auto message = [](const std::string& text) { return std::string(error_of(text).what()); };
   EXPECT_THAT(message("wake_sheet{ wings = 'main' }"), testing::HasSubstr("did you mean"));
-  EXPECT_THAT(message("wake_sheet{ direction = {0, 0, 0} }"), testing::HasSubstr("has no length"));
-  EXPECT_THAT(message("wake_sheet{ direction = {1, 0, 0}, alpha = 2*deg }"), testing::HasSubstr("one of them is enough"));
+  EXPECT_THAT(message("wake_sheet{ direction = {0, 0, 0} }"), testing::HasSubstr("zero length"));
+  EXPECT_THAT(message("wake_sheet{ direction = {1, 0, 0}, alpha = 2*deg }"), testing::HasSubstr("direction and alpha, beta exclude each other"));
   // The half of a fin in the plane of symmetry has no sheet, and the model consists of nothing else.
   EXPECT_THAT(
       message("volume_mesh{ half(surface_mesh{ wing{ trailing_edge = 0.01, tip = 'flat', sections = { {chord = 1, airfoil = 'naca0012'}, {z = 2} } }:model(), "
@@ -163,7 +163,7 @@ TEST(ScriptRun, ActuatorDiscsAreCheckedWhereTheyAreMade) {
   EXPECT_EQ(run_text("local d = actuator_disc{ name = 'prop', center = {-0.4, 0, 0}, radius = 120*cm } print(d.name, d.radius, d.center[1])"),
             "prop\t1.2\t-0.4\n");
   const auto message = [](const std::string& text) { return std::string(error_of(text).what()); };
-  EXPECT_THAT(message("actuator_disc{ radius = 1 }"), testing::HasSubstr("center: is needed"));
+  EXPECT_THAT(message("actuator_disc{ radius = 1 }"), testing::HasSubstr("center: required"));
   EXPECT_THAT(message("actuator_disc{ center = {0, 0, 0} }"), testing::HasSubstr("radius"));
   EXPECT_THAT(message("actuator_disc{ center = {0, 0, 0}, radius = 1, inner = 0.2 }"), testing::HasSubstr("unknown key \"inner\""));
   EXPECT_THAT(message("volume_mesh{ read_surface 'box.stl', first_height = 1e-3, interfaces = { 3 } }"),

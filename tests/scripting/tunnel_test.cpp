@@ -40,7 +40,7 @@ TEST_F(TunnelScripts, SectionsAreRectangularRoundOrTheUsers) {
   EXPECT_THAT(error("test_section{ length = 4, width = 2, height = 2, floor = 'slippery', walls = { layer = 3 } }"),
               AllOf(HasSubstr("not \"slippery\""), HasSubstr("layer")));
   EXPECT_THAT(error("test_section{ length = 4, diameter = 2, floor = 'slip' }"), HasSubstr("a round section has one wall"));
-  EXPECT_THAT(error("test_section{ box{ {0,0,0}, {1,1,1} }, inflow = 'nosuch' }"), HasSubstr("inflow: expected the name of faces of the model"));
+  EXPECT_THAT(error("test_section{ box{ {0,0,0}, {1,1,1} }, inflow = 'nosuch' }"), HasSubstr("inflow: no face has a matching name"));
   EXPECT_THAT(error("test_section{ length = 4, width = 2, height = 2, patches = { wing = { max_edge = 1 } } }"),
               HasSubstr("no face of the tunnel has a name like \"wing\""));
 }
@@ -62,7 +62,7 @@ TEST_F(TunnelScripts, ASideWithLayersIsAWall) {
               AllOf(HasSubstr("\"names\": \"tunnel_left\",\n      \"layers\""), testing::Not(HasSubstr("\"names\": \"tunnel_floor\",\n      \"layers\""))));
   EXPECT_THAT((kind_of_floor("walls = { total_height = 0.1 }"), text_of("t.su2.json")), HasSubstr("\"total_height\": 0.1"));  // this option was once dropped
   EXPECT_THAT(error("test_section{ length = 4, width = 2, height = 2, floor = { kind = 'slip', layers = 4 } }"),
-              HasSubstr("floor: only walls carry layers, and its kind is slip"));
+              HasSubstr("floor: only walls have layers, and this patch is of kind slip"));
   EXPECT_THAT(
       error(
           "volume_mesh{ surface_mesh{ test_section{ length = 4, width = 2, height = 2, patches = { inflow = { layers = 4 } } }, max_edge = 0.5 }, layers = 4, "
@@ -196,7 +196,7 @@ TEST_F(TunnelScripts, WhatReachesOutOfTheTunnelIsDeclared) {
       "name "
       "= 'pin' }, t, max_edge = 0.3, min_edge = 0.02 } end ";
   EXPECT_THAT(error(round + "pin(1.01)"), HasSubstr("\"pin\" reaches 0.010"));
-  EXPECT_THAT(error("test_section{ length = 4, width = 2, height = 2, through = 3 }"), HasSubstr("through: expected names of components or faces"));
+  EXPECT_THAT(error("test_section{ length = 4, width = 2, height = 2, through = 3 }"), HasSubstr("through: expected names or patterns of components or faces"));
 }
 
 TEST_F(TunnelScripts, AssembliesAreUnitedWhereTheyTouch) {

@@ -10,5 +10,5 @@ volume_mesh{ read_surface "box.stl",
   farfield = 20,
   prisms = { wall_perpendicularity = 2 } }
 -- expect feature_angle: 35 rad (2005.35 deg) is not allowed, expected a number in 0.572958 deg .. 177.617 deg (angles are in radians; write degrees as 40*deg)
--- expect farfield: expected a table of the options of this stage, not a number
+-- expect farfield: expected a table with options of this stage, not a number
 -- expect prisms.wall_perpendicularity: 2 is not allowed, expected a number in 0 .. 1

@@ -1,2 +1,2 @@
--- expect script_failed needs more than 1024 MiB for its own values
+-- expect script_failed needs more than 1024 MiB for its Lua values
 local s = string.rep("x", 1.2e9)

@@ -1,2 +1,2 @@
--- expect bad_argument module_outside.lua:2: require "../box": modules lie beside the script
+-- expect bad_argument module_outside.lua:2: require "../box": modules must be beside the script
 require "../box"

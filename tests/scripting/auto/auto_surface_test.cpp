@@ -175,11 +175,11 @@ TEST_F(AutoSurfaceTest, SmoothBodyIsNotDentedForItsBudget) {
   file.close();
   const test::ProcessResult result = sterna({"surface", "car.off", "--auto", "-o", "same.off", "--set", "remesh.max_triangles=4000"});
   ASSERT_EQ(result.status, 0) << result.errors;
-  EXPECT_THAT(result.output + result.errors, AllOf(HasSubstr("the triangles stay as they are"), Not(HasSubstr("changed: remeshed"))));
+  EXPECT_THAT(result.output + result.errors, AllOf(HasSubstr("the triangles are kept"), Not(HasSubstr("changed: remeshed"))));
   const test::ProcessResult free = sterna({"surface", "car.off", "--auto", "-o", "new.off"});
   // With enough triangles the distance is the criterion: over new edges it is 0.255, above the limit of 0.2.
   EXPECT_THAT(free.output + free.errors,
-              AllOf(HasSubstr("of their edges from the input triangles, the limit is 0.2"), HasSubstr("the triangles stay as they are")))
+              AllOf(HasSubstr("of their edges from the input triangles, the limit is 0.2"), HasSubstr("the triangles are kept")))
       << free.errors;
 }
 
@@ -219,7 +219,7 @@ TEST_P(AutoHalfTest, IsRecognisedToldAndMeshed) {
   ASSERT_EQ(result.status, 0) << result.errors;
   // Open boundaries that the reader finds flat form an open domain from the beginning; others are recognised as those of a half model.
   EXPECT_THAT(result.output + result.errors,
-              AnyOf(HasSubstr("half model"), HasSubstr(std::string("all of its rims lie in the plane ") + "xyz"[axis] + " = 0 m")));
+              AnyOf(HasSubstr("half model"), HasSubstr(std::string("all its open boundaries lie in the plane ") + "xyz"[axis] + " = 0 m")));
   EXPECT_THAT(result.output + result.errors, HasSubstr("VALID"));
   EXPECT_THAT(text_of("half.su2"), HasSubstr("MARKER_TAG= symmetry"));
 }
@@ -232,7 +232,7 @@ TEST_F(AutoSurfaceTest, SinglePrecisionThatMergesVerticesIsTold) {
                                         "3 0 1 3\n3 1 4 3\n3 1 2 4\n3 2 0 4\n3 0 3 4\n3 1 0 5\n3 2 1 5\n3 0 2 5\n";
   const test::ProcessResult stl = sterna({"repair", "far.off", "-o", "far.stl"}), obj = sterna({"repair", "far.off", "-o", "far.obj"});
   ASSERT_EQ(stl.status, 0) << stl.errors;
-  EXPECT_THAT(stl.output + stl.errors, HasSubstr("STL is single precision, which puts 1 of 6 vertices onto others"));
+  EXPECT_THAT(stl.output + stl.errors, HasSubstr("STL is single precision, which merges 1 of 6 vertices with others"));
   EXPECT_THAT(obj.output + obj.errors, Not(HasSubstr("single precision")));
 }
 
@@ -258,7 +258,7 @@ TEST_F(AutoSurfaceTest, OverlappingCadPartsAreUnited) {
       ")");
   const test::ProcessResult result = sterna({"surface", "a.step", "b.step", "-o", "hull.stl"});
   ASSERT_EQ(result.status, 0) << result.errors;
-  EXPECT_THAT(result.output + result.errors, HasSubstr("2 closed parts stand in each other and were united: 1 closed now"));
+  EXPECT_THAT(result.output + result.errors, HasSubstr("2 closed parts intersect and were united: 1 closed now"));
 }
 
 /// TetGen split boundary triangles here ("2 boundary triangles that are no face of a tetrahedron") until repair joined touching parts. A new input for such

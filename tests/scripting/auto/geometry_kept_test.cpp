@@ -243,7 +243,7 @@ TEST_F(GeometryKept, InwardHalfModelWithFarfieldIsABody) {
     words.insert(words.end(), more.begin(), more.end());
     const test::ProcessResult result = sterna(words);
     EXPECT_EQ(result.status, 0) << result.errors;
-    EXPECT_THAT(result.output + result.errors, HasSubstr("with normals inwards turned")) << first.back();
+    EXPECT_THAT(result.output + result.errors, HasSubstr("with inward normals")) << first.back();
   }
 }
 

@@ -175,7 +175,7 @@ TEST_F(CachedRun, ModelsComeBackAsTheyWere) {
   EXPECT_GE(kept.at("assembly"), 2);
   expect_same(run(text("4"), true), without, "warm");
   EXPECT_THAT(log_, AllOf(HasSubstr("aircraft: from the cache"), HasSubstr("read_cad of "), HasSubstr("union of "), HasSubstr("assembly of "),
-                          Not(HasSubstr("once more"))));
+                          Not(HasSubstr("runs again"))));
   const Files other = run(text("5"), false);
   EXPECT_FALSE(other.at("m.stl") == without.at("m.stl"));
   expect_same(run(text("5"), true), other, "another place of the union");
@@ -193,7 +193,7 @@ TEST_F(CachedRun, CachedModelMakesOpenCascadeShapeOnDemand) {
   for (const char* name : {"bar", "rod"}) {
     const Files without = run(text(name), false);
     expect_same(run(text(name), true), without, name);
-    EXPECT_THAT(log_, AllOf(HasSubstr("read_cad of "), HasSubstr("read_cad: once more")));
+    EXPECT_THAT(log_, AllOf(HasSubstr("read_cad of "), HasSubstr("read_cad: runs again")));
     expect_same(run(text(name), true), without, std::string(name) + ", warm");
     EXPECT_THAT(log_, HasSubstr("union of "));
   }

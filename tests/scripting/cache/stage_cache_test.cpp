@@ -165,7 +165,7 @@ TEST_F(StageCacheTest, UnwritableFolderIsAWarning) {
   std::filesystem::remove_all(folder_);
   std::ofstream(folder_) << "a file";
   store(one, 1, "one");
-  EXPECT_THAT(log_, HasSubstr("is not kept"));
+  EXPECT_THAT(log_, HasSubstr("is not stored"));
   EXPECT_EQ(find(one, 1), "-");
 }
 

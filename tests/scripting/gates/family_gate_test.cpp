@@ -130,7 +130,7 @@ TEST_F(FamilyGate, UnrefinedLayerIsNoFamily) {
                              "max_growth=1.25, farfield=sphere{ radius=10 } } ";
   EXPECT_THAT(run(broken + "print(check_family{ a, b }.verdict)", {}, 2),
               AllOf(HasSubstr("FAIL\n"), HasSubstr("requested first height, m                    FAIL")));
-  EXPECT_THAT(error(broken + "check_family{ a, b, strict = true }"), HasSubstr("the meshes are no family"));
+  EXPECT_THAT(error(broken + "check_family{ a, b, strict = true }"), HasSubstr("the meshes are not a family"));
   EXPECT_THAT(error("check_family{ 'a.sterna' }"), HasSubstr("at least two meshes"));
 }
 

@@ -78,12 +78,12 @@ TEST_F(ModelGates, WallsKnowTheirModelWhereTheyAreMoved) {
 TEST_F(ModelGates, MistakesSayWhatToDo) {
   const std::string box = (test::corpus() / "scripts" / "box.stl").string();
   EXPECT_THAT(error("read_surface{ '" + box + "' }:check()"),
-              AllOf(HasSubstr("does not know the model"), HasSubstr("surface_mesh{ read_cad \"model.step\" }")));
+              AllOf(HasSubstr("has no model to be compared with"), HasSubstr("surface_mesh{ read_cad \"model.step\" }")));
   EXPECT_THAT(error(k_can + k_mesh + "mesh:check{ wall = can }"), HasSubstr("wall: expected the surface of surface_mesh, not a model"));
   EXPECT_THAT(error(k_can + k_mesh + "mesh:check{ wall = half(wall) }"), HasSubstr("before half{ }"));
   EXPECT_THAT(error(k_can + k_mesh + "mesh:check{ wall = wall, quality = false }"), HasSubstr("belong to quality"));
   std::filesystem::copy(box, folder_ / "box.stl");
-  EXPECT_THAT(sterna({"check", "can.su2", "--model", "box.stl"}).errors, HasSubstr("--model box.stl: it is no model"));
+  EXPECT_THAT(sterna({"check", "can.su2", "--model", "box.stl"}).errors, HasSubstr("--model box.stl: the file is not a model"));
 }
 
 TEST_F(ModelGates, OfARealWing) {

@@ -225,7 +225,7 @@ TEST_F(InspectFiles, GiveScriptsATable) {
   const std::string printed =
       run("local wall = read_surface '" + path + "'\nlocal pre = inspect{ wall, layers = 30, first_height = 1e-4, max_thickness = 0.4 }\n" +
           "print(pre.ok, pre.errors, #pre.findings, pre.coverage > 0.99, pre.collapsed, pre.is_closed, pre.parts)");
-  EXPECT_THAT(printed, HasSubstr("volume_mesh will take it"));
+  EXPECT_THAT(printed, HasSubstr("volume_mesh will accept it"));
   EXPECT_THAT(printed, HasSubstr("true\t0\t1\ttrue\t0.0\ttrue\t1"));
   EXPECT_THAT(run("local pre = inspect(read_surface '" + path + "') print(pre.coverage, pre.findings[1].kind)"), HasSubstr("nil\tnot_looked_at"));
   const std::string far = write(test::sphere(6, 2000.0), "sphere.stl");
@@ -269,7 +269,7 @@ TEST_F(InspectFiles, AnswerTheShell) {
   const std::string cube = write(test::cube(12), "cube.stl");
   const test::ProcessResult good = sterna({cube, "--layers", "20", "--first-height", "1e-4"});
   EXPECT_EQ(good.status, 0) << good.errors;
-  EXPECT_THAT(good.output, HasSubstr("volume_mesh will take it"));
+  EXPECT_THAT(good.output, HasSubstr("volume_mesh will accept it"));
   const std::string far = write(test::sphere(6, 2000.0), "sphere.stl");
   EXPECT_EQ(sterna({far}).status, 0);
   EXPECT_EQ(sterna({far, "--strict"}).status, 1);

@@ -54,7 +54,7 @@ async function open_damaged(open, report, blob) {
   await require_sentence(open, empty, "empty template");
   const damaged = async (name, words, page, blob_text = good, options = {}) => require_sentence(open, await write(name, page, blob_text), words, options);
   await damaged("cut_json", "its JSON cannot be read", JSON.stringify(report).slice(0, 5000));
-  await damaged("other_schema", 'this one has "sterna-report-9"', { schema: "sterna-report-9" });
+  await damaged("other_schema", 'this report has "sterna-report-9"', { schema: "sterna-report-9" });
   await damaged("no_table", 'its table "gates" is missing', { ...report, gates: undefined });
   await damaged("no_surface", "its surface is missing", { ...report, surface: null });
   const { points, edges } = report.surface;

@@ -138,9 +138,9 @@ TEST_F(Report, UserGatesDecideVerdictManifestAndPage) {
   EXPECT_THAT(error(mesh_script() + "mesh:check{ strict = true, gates = { G5 = { hard = 89*deg, target = 89.5*deg } } }"), HasSubstr("node-centred: FAIL"));
   EXPECT_THAT(error(mesh_script() + "mesh:check{ gates = { ortogonality = { hard = 1 } } }"), HasSubstr("did you mean orthogonality"));
   EXPECT_THAT(error(mesh_script() + "mesh:check{ gates = { orthogonality = { hart = 1 } } }"), HasSubstr("did you mean hard"));
-  EXPECT_THAT(error(mesh_script() + "mesh:check{ gates = { orthogonality = {} } }"), HasSubstr("takes hard, target"));
+  EXPECT_THAT(error(mesh_script() + "mesh:check{ gates = { orthogonality = {} } }"), HasSubstr("expected a table with hard, target"));
   EXPECT_THAT(error(mesh_script() + "mesh:check{ gates = { orthogonality = { hard = 50*deg } } }"), HasSubstr("values are better: give both"));
-  EXPECT_THAT(error(mesh_script() + "mesh:check{ gates = { orthogonality = { hard = 20*deg, target = 10*deg } } }"), HasSubstr("easier than hard"));
+  EXPECT_THAT(error(mesh_script() + "mesh:check{ gates = { orthogonality = { hard = 20*deg, target = 10*deg } } }"), HasSubstr("less strict than hard"));
   EXPECT_THAT(error(mesh_script() + "mesh:check{ gates = { G9 = { hard = 1 } } }"), HasSubstr("several measures"));
 }
 

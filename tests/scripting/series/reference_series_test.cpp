@@ -95,9 +95,9 @@ TEST_F(ReferenceSeries, UnsuitableReferencesAreRemeshedWithReason) {
       bend_series(cases({{0, 0}, {8, 0}, {0.1, 0}}, ", surface_only = true"), "cache = false,", ", max_edge = p.bend == 0.1 and 0.45 or 0.5");
   const test::ProcessResult result = run(std::string(script).replace(script.find("max_edge = 0.5, "), 16, ""), {"--tasks", "1", "--threads", "2"});
   ASSERT_EQ(result.status, 0) << result.errors;
-  EXPECT_THAT(reused("bend=8_alpha=0"), AllOf(HasSubstr(": meshed anew: "), HasSubstr(", at (")));
+  EXPECT_THAT(reused("bend=8_alpha=0"), AllOf(HasSubstr(": meshed again: "), HasSubstr(", at (")));
   EXPECT_NE(triangles_of(wall("bend=8_alpha=0")), triangles_of(wall("bend=0_alpha=0")));
-  EXPECT_THAT(reused("bend=0.1_alpha=0"), HasSubstr(": meshed anew: options differ from the reference's: max_edge"));
+  EXPECT_THAT(reused("bend=0.1_alpha=0"), HasSubstr(": meshed again: options differ from those of the reference: max_edge"));
 }
 
 TEST_F(ReferenceSeries, DamagedReferenceFileIsErrorOfDependentCases) {
@@ -108,7 +108,7 @@ TEST_F(ReferenceSeries, DamagedReferenceFileIsErrorOfDependentCases) {
   std::fstream(kept, std::ios::binary | std::ios::in | std::ios::out).seekp(5000).put('\x5a').put('\x5a');
   run(script, {"--threads", "2", "--series-case", "bend/2"});
   EXPECT_THAT(text_of("bend/bend=0.1_alpha=0/status.json"),
-              AllOf(HasSubstr("\"failed\""), HasSubstr("reference.kept is damaged: its content does not have the hash"), HasSubstr("bend=0_alpha=0")));
+              AllOf(HasSubstr("\"failed\""), HasSubstr("reference.kept is damaged: its content does not match the stored hash"), HasSubstr("bend=0_alpha=0")));
   const test::ProcessResult healed =
       run(script, {"--threads", "2"});  // the reference no longer equals its record, so the reference and all cases that start from it are made again
   EXPECT_EQ(healed.status, 0) << healed.errors;

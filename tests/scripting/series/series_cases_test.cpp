@@ -61,12 +61,12 @@ TEST(SeriesCases, HaveNamesThatAreSafeAndUnique) {
 }
 
 TEST(SeriesCases, RefuseWhatIsNone) {
-  EXPECT_EQ(error_of(R"({})"), "there is no case");
+  EXPECT_EQ(error_of(R"({})"), "there are no cases");
   EXPECT_EQ(error_of(R"({"alpha": []})"), "alpha: the list is empty");
-  EXPECT_EQ(error_of(R"([{"alpha": 1}, {"alpha": 1}])"), "cases 1 and 2 are both \"alpha=1\"");
+  EXPECT_EQ(error_of(R"([{"alpha": 1}, {"alpha": 1}])"), "cases 1 and 2 have the same name \"alpha=1\"");
   EXPECT_EQ(error_of(R"([{"alpha": 1}, 7])"), "expected tables of parameters, not a number");
-  EXPECT_EQ(error_of(R"({"index": [1]})"), "index: p.index is the number of the case");
-  EXPECT_EQ(error_of(R"([{"name": "a/b"}])"), "name: a case is called by letters, digits and . + - _ = (at most 100)");
+  EXPECT_EQ(error_of(R"({"index": [1]})"), "index: this name is reserved, p.index is the number of the case");
+  EXPECT_EQ(error_of(R"([{"name": "a/b"}])"), "name: names of cases have letters, digits and . + - _ = only (at most 100)");
 }
 
 TEST(SeriesCases, RangesMeetTheirEnd) {
@@ -75,8 +75,8 @@ TEST(SeriesCases, RangesMeetTheirEnd) {
   EXPECT_EQ(range(std::int64_t{1}, std::int64_t{3}, {}), "[1,2,3]");
   EXPECT_EQ(range(std::int64_t{4}, std::int64_t{0}, std::int64_t{-2}), "[4,2,0]");
   EXPECT_EQ(std::get<std::shared_ptr<const ScriptTable>>(range_of(0.0, 1.0, 0.1))->items.size(), 11u);
-  test::expect_error(ErrorCode::bad_argument, "from 0 to 1 in steps of -0.1 there is no value", [&] { (void)range_of(0.0, 1.0, -0.1); });
-  test::expect_error(ErrorCode::bad_argument, "in steps of 0 there is no value", [&] { (void)range_of(0.0, 1.0, 0.0); });
+  test::expect_error(ErrorCode::bad_argument, "from 0 to 1 in steps of -0.1 there are no values", [&] { (void)range_of(0.0, 1.0, -0.1); });
+  test::expect_error(ErrorCode::bad_argument, "in steps of 0 there are no values", [&] { (void)range_of(0.0, 1.0, 0.0); });
   test::expect_error(ErrorCode::bad_argument, "last value: expected a finite number, not inf",
                      [&] { (void)range_of(0.0, std::numeric_limits<double>::infinity(), 1.0); });
 }

@@ -48,7 +48,7 @@ class Series : public SeriesFixture {
     std::size_t n = 0;
     for (std::size_t at = 0; (at = result.errors.find("small ", at)) != std::string::npos; ++at) ++n;
     std::size_t kept = 0;
-    for (std::size_t at = 0; (at = result.errors.find("of an earlier run", at)) != std::string::npos; ++at) ++kept;
+    for (std::size_t at = 0; (at = result.errors.find("from an earlier run", at)) != std::string::npos; ++at) ++kept;
     return n - kept;
   }
 };
@@ -292,7 +292,7 @@ TEST_F(Series, CtrlCStopsWorkersAndKeepsFinishedCases) {
   for (const pid_t worker : workers) EXPECT_FALSE(is_running(worker));
   EXPECT_THAT(text_of("small/x=2/status.json"), HasSubstr("\"killed\": \"stopped on request\""));
   EXPECT_THAT(text_of("small/x=1/status.json"), HasSubstr("done"));
-  EXPECT_THAT(text_of("errors.txt"), AllOf(HasSubstr("1 of 3 cases are done and kept in"), HasSubstr("run the same command to go on")));
+  EXPECT_THAT(text_of("errors.txt"), AllOf(HasSubstr("1 of 3 cases are complete and stored in"), HasSubstr("run the same command to continue")));
 }
 
 TEST_F(Series, AKilledCaseDoesNotStopTheOthers) {
@@ -325,7 +325,7 @@ TEST_F(Series, WorkersAndLockEndWithMainProcess) {
   // While the series runs, a second run of it is refused at once, with the reason.
   const test::ProcessResult second = run(k_endless);
   EXPECT_EQ(second.status, 1);
-  EXPECT_THAT(second.errors, HasSubstr("another run is at work in it: process " + std::to_string(main.pid()) + " on "));
+  EXPECT_THAT(second.errors, HasSubstr("another run uses this folder: process " + std::to_string(main.pid()) + " on "));
   EXPECT_LT(second.seconds, test::k_is_sanitized ? 60.0 : 3.0);
 
   main.signal(SIGKILL);
@@ -341,7 +341,7 @@ TEST_F(Series, SaysWhatIsWrongWithItsTable) {
   const test::ProcessResult result = run("series{ over = { alpha = print }, run = 2, reference = { a = 1 }, cases = function() end, cache = 7 }");
   EXPECT_EQ(result.status, 2);
   EXPECT_THAT(result.errors, HasSubstr("case.lua:1: series: 6 problems in this table"));
-  EXPECT_THAT(result.errors, HasSubstr("needs its name first"));
+  EXPECT_THAT(result.errors, HasSubstr("needs a name as the first entry"));
   EXPECT_THAT(result.errors, HasSubstr("over: alpha: a function cannot be a parameter"));
   EXPECT_THAT(result.errors, HasSubstr("run: expected jobs{ 2 } or slurm{ partition = \"cfd\" }, not a number"));
   EXPECT_THAT(result.errors, HasSubstr("case is missing"));
@@ -349,12 +349,12 @@ TEST_F(Series, SaysWhatIsWrongWithItsTable) {
   EXPECT_THAT(result.errors, HasSubstr("cache: expected true, false or the name of a folder, not a number"));
   EXPECT_THAT(run("series{ 'a', over = { x = {1, 2} }, reference = { x = 3 }, case = function() end }").errors,
               HasSubstr("reference: no case has these parameters: {\"x\":3}"));
-  EXPECT_THAT(run("series{ 'a/b', over = { x = {1} }, case = function() end }").errors, HasSubstr("\"a/b\" cannot be its name"));
+  EXPECT_THAT(run("series{ 'a/b', over = { x = {1} }, case = function() end }").errors, HasSubstr("\"a/b\" is not a valid name"));
   EXPECT_THAT(run("local o = { 'a', over = { x = {1} }, case = function() end } series(o) series(o)").errors, HasSubstr("there is a series \"a\" already"));
   EXPECT_THAT(run("series{ 'a', over = { x = {1} }, case = function() series{ 'b', over = { x = {1} }, case = function() end } end }").errors,
-              HasSubstr("a case cannot hold a series of its own"));
+              HasSubstr("a case cannot contain another series"));
   EXPECT_THAT(run("jobs{ 2.5 }").errors, HasSubstr("tasks"));
-  EXPECT_THAT(run("slurm{ options = { mem = print } }").errors, HasSubstr("options.mem: expected a text, a number or true, not a function"));
+  EXPECT_THAT(run("slurm{ options = { mem = print } }").errors, HasSubstr("options.mem: expected a string, a number or true, not a function"));
 }
 
 /// The program may be replaced while a series runs: the result of a worker from another build must not count as a failure of this build.
@@ -362,11 +362,11 @@ TEST(CaseRunners, WorkerOfOtherBuildIsReported) {
   const std::filesystem::path folder = test::scratch();
   const RunContext context;
   const CaseTask task{.of = nullptr, .folder = folder / "case", .key = "ours"};
-  const CaseStatus otherwise{.state = CaseState::failed, .key = "ours", .code = "script_failed", .message = "the worker ended without a word"};
+  const CaseStatus otherwise{.state = CaseState::failed, .key = "ours", .code = "script_failed", .message = "the worker ended without a message"};
   std::filesystem::create_directories(task.folder);
   write_status({.state = CaseState::done, .key = "of last week", .result = "null"}, task.folder);
   prepare(task, context);
-  EXPECT_EQ(settle(task, otherwise, context).message, "the worker ended without a word");  // a status left from an earlier run is ignored
+  EXPECT_EQ(settle(task, otherwise, context).message, "the worker ended without a message");  // a status left from an earlier run is ignored
   prepare(task, context);
   write_status({.state = CaseState::done, .key = "theirs", .result = "null"}, task.folder);
   const CaseStatus status = settle(task, otherwise, context);

@@ -65,7 +65,7 @@ TEST_F(SlurmSeries, RunsAsJobsIsCancelledSurvivesLostJobs) {
   test::run_process("/usr/bin/env", {"SLURM_ARRAY_TASK_ID=1", "/bin/sh", "polar/slurm/array-1.sh"}, folder_);
   EXPECT_EQ(difference(of_slurm, results()), "");
   EXPECT_TRUE(text_of(log).starts_with(said));
-  EXPECT_THAT(text_of(log), HasSubstr("is over already"));
+  EXPECT_THAT(text_of(log), HasSubstr("is complete already"));
 
   std::filesystem::remove_all(folder_ / "polar");
   run(tunnel_series("run = jobs{ 2, threads = 1 },"));
@@ -85,7 +85,7 @@ end }
     const std::string status = text_of("s/x=2/status.json");
     kill(std::stoi(status.substr(status.find("\"pid\": ") + 7)), SIGKILL);
     EXPECT_EQ(main.wait(), 1);
-    EXPECT_THAT(text_of("s/x=2/status.json"), HasSubstr("is gone from the queue and has left no result"));
+    EXPECT_THAT(text_of("s/x=2/status.json"), HasSubstr("is no longer in the queue and left no result"));
     EXPECT_THAT(text_of("s/x=3/status.json"), HasSubstr("done"));
   }
   wait_for_empty_queue(cluster);
@@ -104,7 +104,7 @@ end }
     EXPECT_EQ(main.wait(), 1);
     // Slurm may still send the job a signal to end; the job then reports this itself.
     EXPECT_THAT(text_of("s/x=2/status.json"),
-                AllOf(HasSubstr("\"status\": \"killed\""), AnyOf(HasSubstr("is gone from the queue"), HasSubstr("stopped on request"))));
+                AllOf(HasSubstr("\"status\": \"killed\""), AnyOf(HasSubstr("is no longer in the queue"), HasSubstr("stopped on request"))));
     cluster.bring_node_back();
   }
   wait_for_empty_queue(cluster);
@@ -126,8 +126,8 @@ end }
   std::filesystem::copy(test::corpus() / "scripts" / "box.stl", folder_ / "go.stl");
   const test::ProcessResult last = run(script);
   EXPECT_EQ(last.status, 0) << last.errors;
-  EXPECT_THAT(last.errors, HasSubstr("is still in the queue: it is cancelled"));
-  EXPECT_THAT(last.errors, HasSubstr("x=1: done, of an earlier run"));
+  EXPECT_THAT(last.errors, HasSubstr("is still in the queue and will be cancelled"));
+  EXPECT_THAT(last.errors, HasSubstr("x=1: done, from an earlier run"));
   wait_for_empty_queue(cluster);
 }
 

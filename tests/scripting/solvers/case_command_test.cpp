@@ -73,7 +73,7 @@ TEST_F(CaseCommands, ReportMistakesBeforeReadingTheMesh) {
       {{"foam-case", "none.sterna", "-o", "case", "--reynolds", "1e6", "--length", "1", "--kind", "ball=slippery"}, "not a patch kind"},
       {{"foam-case", "none.sterna", "-o", "case", "--reynolds", "1e6", "--length", "1", "--boundary", "prop:trust=3"}, "thrust"},
       {{"foam-case", "none.sterna", "-o", "case", "--reynolds", "1e6", "--flow", "reynolds=2e6 length=1"}, "given twice"},
-      {{"su2-config", "none.su2", "-o", "a.cfg", "--reynolds", "1e6", "--length", "1"}, "Mach number cannot be known"},
+      {{"su2-config", "none.su2", "-o", "a.cfg", "--reynolds", "1e6", "--length", "1"}, "Mach number is unknown"},
       {{"su2-config", "none.su2", "-o", "a.cfg", "--mach", "0.5", "--altitude", "0", "--length", "1", "--reference-area", "1", "--mesh", "a.vtu"}, "SU2 reads"},
       {{"foam-caes", "none.sterna"}, "did you mean foam-case?"}};
   for (const auto& [arguments, told] : cases) {
@@ -93,7 +93,7 @@ TEST_F(CaseCommands, KindsOfPatchesAreThoseOfTheCase) {
   EXPECT_THAT(told, AllOf(HasSubstr("case.lua:1: mesh:foam_case"), HasSubstr("kinds[\"top\"]"), HasSubstr("names are farfield, wall")));
   EXPECT_THAT(error("read_mesh(" + out("ball.sterna") + "):su2_config{ " + out("no.cfg") +
                     ", mach = 0.5, altitude = 0, length = 1, reference_area = 1, kinds = { 'slip', wall = 3 } }"),
-              HasSubstr("kinds: expected a table by names of patches"));
+              HasSubstr("kinds: expected a table with names of patches as keys"));
   EXPECT_THAT(error("read_mesh(" + out("ball.sterna") + "):su2_config{ " + out("no.cfg") +
                     ", mach = 0.5, altitude = 0, length = 1, reference_area = 1, kinds = { wall = 'slippery' } }"),
               HasSubstr("\"slippery\" is not a patch kind"));
@@ -107,7 +107,7 @@ TEST_F(CaseCommands, MonitorIsTextWithMatchingPatterns) {
   const std::string mesh = "read_mesh(" + out("ball.sterna") + ")";
   const std::string flow = ", reynolds = 100, length = 1, ";
   EXPECT_THAT(error(mesh + ":foam_case{ " + out("no") + flow + "monitor = {'wing*', 'body'} }"),
-              AllOf(HasSubstr("monitor: a table is not allowed here, expected a text"), HasSubstr("write monitor = \"wing* body\"")));
+              AllOf(HasSubstr("monitor: a table is not allowed here, expected a string"), HasSubstr("write monitor = \"wing* body\"")));
   EXPECT_THAT(error(mesh + ":foam_case{ " + out("no") + flow + "monitor = 'wall wal' }"),
               AllOf(HasSubstr("monitor: no patch has a name like \"wal\""), HasSubstr("did you mean \"wall\"?")));
 }
@@ -120,7 +120,9 @@ TEST(CaseKinds, SidesThatBelongTogetherKeepTheirs) {
   test::expect_error(ErrorCode::bad_argument, "\"prop\" is a side of an actuator disc", [&] {
     (void)with_kinds(mesh, {{"prop*", PatchKind::slip}}, "a case");
   });
-  test::expect_error(ErrorCode::bad_argument, "which only volume_mesh makes", [&] { (void)with_kinds(mesh, {{"far", PatchKind::interface}}, "a case"); });
+  test::expect_error(ErrorCode::bad_argument, "only volume_mesh makes such patches", [&] {
+    (void)with_kinds(mesh, {{"far", PatchKind::interface}}, "a case");
+  });
 }
 
 }  // namespace

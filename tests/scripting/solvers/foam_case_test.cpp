@@ -232,7 +232,7 @@ TEST(FoamRun, SettledForcesAreDistinguishedFromMovingForces) {
   EXPECT_EQ(told(thrown, {"what=bounded", "limit=4000", "first=2000", "from=5"}), "diverged 58 4060.000000 30 1.5 30 3\n");
   EXPECT_EQ(told(thrown, {"what=bounded", "limit=1e9", "first=1e8", "from=5"}), "bounded\n");
   const std::vector<std::string> of_gas = {"what=bounded", "limit=4000", "first=2000", "from=5", "many=25"};
-  EXPECT_EQ(told(thrown, of_gas), "touched 3 1.5 60 3\n") << "3 of the last 50 iterations are beyond the limit";
+  EXPECT_EQ(told(thrown, of_gas), "touched 3 1.5 60 3\n") << "3 of the last 50 iterations exceed the limit";
   std::string stuck;
   for (int i = 1; i <= 80; ++i) stuck += std::to_string(i) + "\tmag(U)\t0\t(0 0 0)\t" + std::to_string(i < 40 ? 70.0 : 5000.0) + "\t(1 2 3)\n";
   EXPECT_EQ(told(stuck, of_gas), "diverged 40 5000.000000 40 1 2 3\n");
@@ -330,7 +330,7 @@ TEST_F(FoamCases, AFolderIsWholeAndHoldsEverything) {
   EXPECT_THAT(text_of("case/system/decomposeParDict"), AllOf(HasSubstr("numberOfSubdomains 12"), HasSubstr("n (3 2 2)")));
   EXPECT_THAT(text_of("case/system/fvSchemes"), AllOf(HasSubstr("pointCellsLeastSquares"), HasSubstr("3 % of the drag")));
   EXPECT_THAT(text_of("case/system/controlDict"), AllOf(Not(HasSubstr("forceCoeffs")), HasSubstr("type yPlus")));
-  EXPECT_THAT(log_, HasSubstr("no reference area, so forces in N and no coefficients"));
+  EXPECT_THAT(log_, HasSubstr("no reference area is given, so forces are in N, without coefficients"));
   // Without results it is replaced; what is no case is not.
   EXPECT_EQ(error(with_mesh("m:foam_case{ " + at("case") + ", flow{ reynolds = 100, length = 2 } }")), "no error");
   std::filesystem::create_directories(folder_ / "photos" / "holiday");
@@ -373,7 +373,7 @@ TEST(FoamConditions, FansAndNozzlesNeedTheirPressures) {
   const HybridMesh mesh =
       test::box_of_patches({{"nozzle", PatchKind::inflow}, {"fan", PatchKind::outflow}, {"body", PatchKind::wall}, {"far", PatchKind::farfield}});
   const volmesh::FlowState flow = volmesh::flow_state({.length = 1.0, .mach = 0.5, .altitude = 0.0});
-  test::expect_error(ErrorCode::bad_argument, "what goes into the outflow \"fan\" cannot be known",
+  test::expect_error(ErrorCode::bad_argument, "the condition at the outflow \"fan\" is unknown",
                      [&] { (void)foam_case(mesh, {}, {}, flow, {.area = 1.0}, {}, RunContext()); });
   const CaseBoundaries boundaries = {{"nozzle", {.total_pressure = 1.5e5, .total_temperature = 600.0}}, {"fan", {.pressure = 9e4}}};
   const FoamCase made = foam_case(mesh, {}, {}, flow, {.area = 1.0}, boundaries, RunContext());
@@ -385,7 +385,7 @@ TEST(FoamConditions, DiscsBecomeCyclicWithAJump) {
   const HybridMesh mesh =
       test::box_of_patches({{"prop", PatchKind::interface}, {"prop.back", PatchKind::interface}, {"body", PatchKind::wall}, {"far", PatchKind::farfield}});
   const volmesh::FlowState flow = volmesh::flow_state({.length = 1.0, .mach = 0.2, .altitude = 0.0});
-  test::expect_error(ErrorCode::bad_argument, "what the actuator disc \"prop\" does cannot be known",
+  test::expect_error(ErrorCode::bad_argument, "the pressure jump of the actuator disc \"prop\" is unknown",
                      [&] { (void)foam_case(mesh, {}, {}, flow, {.area = 1.0}, {}, RunContext()); });
   const FoamCase made = foam_case(mesh, {}, {}, flow, {.area = 1.0}, {{"prop", {.thrust = 1225.0}}}, RunContext());
   ASSERT_EQ(made.joined.size(), 1u);

@@ -39,7 +39,7 @@ TEST_F(WrittenNumbers, AreThoseThatAreAskedFor) {
   EXPECT_LT(both.mean_profile, 0.8 * made.mean_profile);
   EXPECT_LT(band.mean_profile, 0.8 * made.mean_profile);
   EXPECT_LT(both.bandwidth, made.bandwidth);
-  EXPECT_EQ(measure("both.sterna").mean_profile, measure("made.sterna").mean_profile) << "a .sterna file stays as it was made";
+  EXPECT_EQ(measure("both.sterna").mean_profile, measure("made.sterna").mean_profile) << ".sterna files keep the order of the mesh";
   // OpenFOAM takes cells as they come: there it is `both` unless something else is asked for.
   EXPECT_LT(measure("made.foam").mean_profile, 0.8 * measure("lines/constant/polyMesh").mean_profile);
   EXPECT_THAT(error("read_mesh(" + out("made.su2") + "):write{ " + out("x.su2") + ", numbering = 'random' }"), HasSubstr("numbering"));

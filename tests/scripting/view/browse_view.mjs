@@ -310,7 +310,7 @@ async function use_airliner(context) {
   await page.fill("#value_span", "60");
   await page.press("#value_span", "Enter");
   state = await wait_for(page, (s) => s.run.status === "failed", null, "a value beyond its limit");
-  require_that(state.problems[0].text.includes("above the greatest value"), state.problems[0].text);
+  require_that(state.problems[0].text.includes("above the maximum"), state.problems[0].text);
   await page.click("#reset_values");
   state = await wait_for(page, (s) => s.run.status === "done" && Object.keys(s.values).length === 0, null, "reset");
   await page.fill("#value_aileron", "12");

@@ -148,7 +148,7 @@ TEST_F(PageServerTest, AnswersManyAtATime) {
 TEST(PageServer, SaysThatAPortIsTaken) {
   const PageServer first(0, [](const PageRequest&) { return PageAnswer{}; });
   const int port = test::parts_of(first.address()).first;
-  test::expect_error(ErrorCode::bad_argument, "port cannot be had", [&] { const PageServer second(port, [](const PageRequest&) { return PageAnswer{}; }); });
+  test::expect_error(ErrorCode::bad_argument, "port is not available", [&] { const PageServer second(port, [](const PageRequest&) { return PageAnswer{}; }); });
 }
 
 }  // namespace

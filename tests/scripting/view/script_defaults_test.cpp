@@ -34,7 +34,7 @@ TEST(ScriptDefaults, SaysWhatItCannotChange) {
   };
   refuse(k_script, {"wings", "1"}, "no default for wings");
   refuse(k_script, {"lengths", "1"}, "which is computed");
-  refuse(k_script, {"span", "os.exit()"}, "is no value for span");
+  refuse(k_script, {"span", "os.exit()"}, "is not a value for span");
   refuse(k_script, {"name", "a\" .. evil .. \""}, "has quotes");
   refuse("local p = 1", {"span", "1"}, "has no args{");
   refuse("args{ a = 1 } args{ a = 2 }", {"a", "1"}, "declares a twice");

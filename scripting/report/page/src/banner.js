@@ -24,7 +24,7 @@ export function banner({ report }) {
   const facts = (report.facts ?? []).slice(0, 5).map(([name, value]) => h("span.fact", null, h("b", null, value), ` ${name}`));
   const surface = report.surface;
   const thinned = surface && surface.shown < surface.total
-    ? h("span.fact.thinned", { title: "The report holds a part of the surface's triangles; tables and histograms are of the whole mesh." }, `picture thinned: ${count_text(surface.shown)} of ${count_text(surface.total)} triangles`)
+    ? h("span.fact.thinned", { title: "The report contains a part of the surface's triangles; tables and histograms describe the whole mesh." }, `picture thinned: ${count_text(surface.shown)} of ${count_text(surface.total)} triangles`)
     : null;
   return h(
     "header.banner",

@@ -9,7 +9,7 @@ function bar(entry) {
 
 function reasons(entry) {
   const list = [...(entry.lost ?? [])].sort((a, b) => b[1] - a[1]);
-  return list.length ? h("ul.reasons", null, list.map(([reason, share]) => h("li", null, h("span", null, percent_text(share)), ` ${reason === "none" ? "no reason noted" : reason}`))) : null;
+  return list.length ? h("ul.reasons", null, list.map(([reason, share]) => h("li", null, h("span", null, percent_text(share)), ` ${reason === "none" ? "no reason recorded" : reason}`))) : null;
 }
 
 /** All patches together, weighted by area. */
@@ -27,5 +27,5 @@ function together(list) {
 export function coverage_tab({ report }) {
   const list = report.coverage.length > 1 ? [together(report.coverage), ...report.coverage] : report.coverage;
   const rows = list.map((entry) => h("div.coverage", null, h("div.coverage_head", null, h("b", null, entry.patch), h("small", null, `${number_text(entry.area)} m\u00b2`), h("span", null, `${percent_text(entry.full)} of ${percent_text(entry.attainable)} attainable`)), bar(entry), reasons(entry)));
-  return [h("h2", null, "Layer coverage of the walls"), h("div.keys", null, k_parts.map(([name, title]) => h("span", null, h(`i.${name}`), title))), rows, h("p.note", null, "Shares of the area. Full height: along the wall's normal at least 0.9 of the height asked for. Attainable: where gaps and corners of the walls permit it. Compressed: lower than layers \u00d7 first height. Collapsed: without layers.")];
+  return [h("h2", null, "Layer coverage of the walls"), h("div.keys", null, k_parts.map(([name, title]) => h("span", null, h(`i.${name}`), title))), rows, h("p.note", null, "Shares of the area. Full height: along the wall's normal at least 0.9 of the target height. Attainable: where gaps and corners of the walls permit it. Compressed: lower than layers \u00d7 first height. Collapsed: without layers.")];
 }

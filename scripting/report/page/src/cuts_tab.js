@@ -2,7 +2,7 @@
 import { button, count_text, fill, h, position_text } from "./dom.js";
 import { check_of, select_of } from "./surface_tab.js";
 
-const k_around = [["clip", "cut off in front of the plane"], ["show", "whole"], ["hide", "hidden"]];
+const k_around = [["clip", "cut off in front of the plane"], ["show", "whole"], ["hide", "not shown"]];
 
 function direction_text(normal) {
   const axis = normal.findIndex((x) => Math.abs(x) > 0.9999);

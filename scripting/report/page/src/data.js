@@ -13,14 +13,14 @@ function text_of(id) {
 export function read_json() {
   const text = text_of("sterna-json");
   // The marker itself must not stand in the bundle.
-  if (text === "" || text.startsWith("<" + "!--STERNA")) throw new ReportError("This file is the empty template of a report: it holds no mesh. sterna fills it with the verb report{}.");
+  if (text === "" || text.startsWith("<" + "!--STERNA")) throw new ReportError("This file is the empty template of a report without a mesh. The verb report{} of sterna writes reports.");
   let json;
   try {
     json = JSON.parse(text);
   } catch (error) {
     throw new ReportError(`The report is damaged: its JSON cannot be read (${error.message}). Write it again.`);
   }
-  if (json === null || typeof json !== "object") throw new ReportError("The report is damaged: its JSON is no object.");
+  if (json === null || typeof json !== "object") throw new ReportError("The report is damaged: its JSON is not an object.");
   return json;
 }
 
@@ -55,7 +55,7 @@ export class Arrays {
   read(place, what, { type, n } = {}) {
     const wrong = (why) => new ReportError(`The report is damaged: ${what} ${why}.`);
     const Type = k_types[place?.type];
-    if (!Type || !Number.isSafeInteger(place.at) || !Number.isSafeInteger(place.n) || place.at < 0 || place.n < 0) throw wrong("is no array of the report");
+    if (!Type || !Number.isSafeInteger(place.at) || !Number.isSafeInteger(place.n) || place.at < 0 || place.n < 0) throw wrong("is not an array of the report");
     if (type && place.type !== type) throw wrong(`has type ${place.type} instead of ${type}`);
     if (n !== undefined && place.n !== n) throw wrong(`has ${place.n} entries instead of ${n}`);
     const end = place.at + place.n * Type.BYTES_PER_ELEMENT;
@@ -80,13 +80,13 @@ export function read_surface(report, arrays) {
   const surface = report.surface;
   const triangles = arrays.read(surface.triangles, "the list of triangles", { type: "u32" });
   const n = triangles.length / 3;
-  if (!Number.isInteger(n)) throw new ReportError(`The report is damaged: ${triangles.length} corners are no whole number of triangles.`);
+  if (!Number.isInteger(n)) throw new ReportError(`The report is damaged: ${triangles.length} corners are not a whole number of triangles.`);
   const points = arrays.read(surface.points, "the list of points", { type: "f32" });
   const patch = arrays.read(surface.patch, "the patches of the triangles", { type: "u16", n });
   const edges = arrays.read(surface.edges, "the edges of the triangles", { type: "u8", n });
   const n_points = points.length / 3;
   for (const corner of triangles) if (corner >= n_points) throw new ReportError(`The report is damaged: a triangle has corner ${corner}, but there are ${n_points} points.`);
-  for (const p of patch) if (p >= report.patches.length) throw new ReportError(`The report is damaged: a triangle is of patch ${p}, but there are ${report.patches.length}.`);
+  for (const p of patch) if (p >= report.patches.length) throw new ReportError(`The report is damaged: a triangle belongs to patch ${p}, but the number of patches is ${report.patches.length}.`);
   return { ...surface, n, points, triangles, patch, edges, fields: fields_of(surface.fields, n, arrays, "the surface") };
 }
 

@@ -10,8 +10,8 @@ const k_limit_colours = { hard: "--fail", target: "--warn", usual: "--pass" };
 /** A sentence when the histogram cannot be drawn, else "". */
 function trouble_of({ edges, counts }) {
   if (!Array.isArray(edges) || !Array.isArray(counts) || edges.length !== counts.length + 1 || counts.length === 0) return "This histogram is damaged: it needs one more edge than counts.";
-  if (!edges.every((edge, k) => Number.isFinite(edge) && (k === 0 || edge > edges[k - 1]))) return "This histogram is damaged: its edges do not ascend.";
-  if (!counts.every((count) => Number.isFinite(count) && count >= 0)) return "This histogram is damaged: a count is no number.";
+  if (!edges.every((edge, k) => Number.isFinite(edge) && (k === 0 || edge > edges[k - 1]))) return "This histogram is damaged: its edges do not increase.";
+  if (!counts.every((count) => Number.isFinite(count) && count >= 0)) return "This histogram is damaged: a count is not a number.";
   return "";
 }
 

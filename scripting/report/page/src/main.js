@@ -9,6 +9,6 @@ start_page(() => {
   const json = read_json();
   const apps = { "sterna-report-1": ReportApp, "sterna-series-1": SeriesApp };
   const App = apps[json.schema];
-  if (!App) throw new ReportError(`This page shows reports of the schemas ${Object.keys(apps).join(" and ")}; this one has "${json.schema}".`);
+  if (!App) throw new ReportError(`This page shows reports of the schemas ${Object.keys(apps).join(" and ")}; this report has "${json.schema}".`);
   return new App(json);
 });

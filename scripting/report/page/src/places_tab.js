@@ -50,7 +50,7 @@ export function places_tab(app) {
   });
   const gates = [...new Set(report.places.map((place) => place.gate))];
   const filter = select_of("Gate", "gate_filter", [["", `all ${gates.length}`], ...gates.map((gate) => [gate, gate])], state.get("gate"), (gate) => state.set({ gate }));
-  const markers = check_of("show these as markers", "places_markers", state.get("markers"), (is_on) => state.set({ markers: is_on }));
+  const markers = check_of("show these locations as markers", "places_markers", state.get("markers"), (is_on) => state.set({ markers: is_on }));
   const step = (by) => {
     const list = app.listed_places();
     if (!list.length) return;
@@ -67,9 +67,9 @@ export function places_tab(app) {
   state.on(["gate", "place", "markers"], refresh);
   setTimeout(() => refresh(state.values));
   return [
-    h("h2", null, "Worst places"),
-    h("div.form.sticky", null, filter, markers, h("div.buttons", null, button("\u2039 previous", () => step(-1), { id: "place_previous", kind: ".small" }), button("next \u203a", () => step(1), { id: "place_next", kind: ".small" }), button("No place", () => state.set({ place: -1 }), { id: "place_none", kind: ".small" }))),
+    h("h2", null, "Worst locations"),
+    h("div.form.sticky", null, filter, markers, h("div.buttons", null, button("\u2039 previous", () => step(-1), { id: "place_previous", kind: ".small" }), button("next \u203a", () => step(1), { id: "place_next", kind: ".small" }), button("No location", () => state.set({ place: -1 }), { id: "place_none", kind: ".small" }))),
     groups.map((group) => group.element),
-    h("p.note", null, `${number_text(report.places.length)} places. The camera looks from outside the body; the marker shows through.`),
+    h("p.note", null, `${number_text(report.places.length)} locations. The camera looks from outside the body; the marker is visible through the surface.`),
   ];
 }

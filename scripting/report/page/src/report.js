@@ -26,7 +26,7 @@ export class ReportApp {
   constructor(report) {
     this.report = report;
     if (typeof report.surface !== "object" || report.surface === null) throw new ReportError("The report is damaged: its surface is missing.");
-    if (!Array.isArray(report.origin) || report.origin.length !== 3 || !report.origin.every(Number.isFinite)) throw new ReportError("The report is damaged: its origin is no position.");
+    if (!Array.isArray(report.origin) || report.origin.length !== 3 || !report.origin.every(Number.isFinite)) throw new ReportError("The report is damaged: its origin is not a position.");
     require_tables(report, ["patches", "cuts", "places", "gates", "histograms", "coverage"]);
     this.surface = null;
     this.cuts = [];
@@ -128,7 +128,7 @@ export class ReportApp {
     const list = [{ name: "summary", title: "Summary", make: () => summary_tab(this) }];
     list.push({ name: "surface", title: "Surface", make: () => surface_tab(this) });
     if (report.cuts.length) list.push({ name: "cuts", title: "Cuts", count: report.cuts.length, make: () => cuts_tab(this) });
-    if (report.places.length) list.push({ name: "places", title: "Places", count: report.places.length, make: () => places_tab(this) });
+    if (report.places.length) list.push({ name: "places", title: "Locations", count: report.places.length, make: () => places_tab(this) });
     if (report.histograms.length) list.push({ name: "histograms", title: "Histograms", make: () => histograms_tab(this) });
     if (report.coverage.length) list.push({ name: "coverage", title: "Coverage", make: () => coverage_tab(this) });
     if (report.run || report.manifest) list.push({ name: "run", title: "Run", make: () => run_tab(this) });
@@ -348,9 +348,9 @@ export class ReportApp {
       this.view.look_along(name, this.visible_points());
     };
     const views = Object.entries(k_view_titles).map(([name, title]) => button(title, () => look(name), { title: `Look from: ${name}`, id: `view_${name}` }));
-    const fit = button("Fit", () => this.view?.fit(this.visible_points()), { title: "All that is shown, into the picture", id: "view_fit" });
+    const fit = button("Fit", () => this.view?.fit(this.visible_points()), { title: "Fit everything that is shown into the picture", id: "view_fit" });
     const edges = button("Edges", () => this.state.set({ edges: !this.state.get("edges") }), { title: "Edges of the mesh", pressed: this.state.get("edges"), id: "toggle_edges" });
-    const markers = button("Places", () => this.state.set({ markers: !this.state.get("markers") }), { title: "All worst places as markers", pressed: this.state.get("markers"), id: "toggle_markers" });
+    const markers = button("Locations", () => this.state.set({ markers: !this.state.get("markers") }), { title: "Show all worst locations as markers", pressed: this.state.get("markers"), id: "toggle_markers" });
     this.state.on(["edges", "markers"], (values) => {
       edges.setAttribute("aria-pressed", String(values.edges));
       markers.setAttribute("aria-pressed", String(values.markers));
@@ -362,8 +362,8 @@ export class ReportApp {
     const panel = button("Panel", () => {
       const is_shown = document.querySelector(".panel").toggleAttribute("hidden") === false;
       panel.setAttribute("aria-pressed", String(is_shown));
-    }, { title: "The tables at the right", pressed: true, id: "toggle_panel" });
-    const save = button("PNG", () => this.save_picture(), { title: "Save the picture with its legends", id: "save_picture" });
+    }, { title: "Show or hide the tables on the right", pressed: true, id: "toggle_panel" });
+    const save = button("PNG", () => this.save_picture(), { title: "Save the picture with legends", id: "save_picture" });
     return h("div.toolbar", { role: "toolbar", "aria-label": "View" }, h("div.group", null, views, fit), h("div.group", null, edges, this.report.places.length ? markers : null), fields.length ? h("div.group", null, colour) : null, h("div.group", null, save, panel));
   }
 

@@ -10,7 +10,7 @@ function stages(run) {
     return h("tr", null, h("td", { style: { paddingLeft: `${0.4 + 1.1 * (stage.depth ?? 0)}em` } }, stage.name.split("/").pop(), h("small", null, stage.name.includes("/") && !stage.depth ? ` ${stage.name}` : "")), h("td.number", null, seconds_text(stage.seconds)), h("td.share_cell", null, h("span.share", { title: percent_text(share) }, h("i", { style: { width: `${Math.min(100, 100 * share).toFixed(2)}%` } }))), h("td.number", null, `${(100 * share).toFixed(1)} %`), h("td.number", null, stage.busy === undefined ? "" : `${(100 * stage.busy).toFixed(0)} %`));
   });
   const facts = [["time", seconds_text(run.seconds)], ["peak memory", bytes_text(run.peak_memory)], ["threads", number_text(run.threads)]];
-  return [h("h2", null, "Stages"), h("div.figures", null, facts.map(([name, value]) => h("span", null, h("b", null, value), h("small", null, name)))), h("table.list", null, h("thead", null, h("tr", null, h("th", null, "stage"), h("th.number", null, "time"), h("th"), h("th.number", null, "share"), h("th.number", { title: "processor time of the whole run meanwhile, of what all threads could have done" }, "busy"))), h("tbody", null, rows))];
+  return [h("h2", null, "Stages"), h("div.figures", null, facts.map(([name, value]) => h("span", null, h("b", null, value), h("small", null, name)))), h("table.list", null, h("thead", null, h("tr", null, h("th", null, "stage"), h("th.number", null, "time"), h("th"), h("th.number", null, "share"), h("th.number", { title: "processor time used during the stage, relative to the capacity of all threads" }, "busy"))), h("tbody", null, rows))];
 }
 
 function value_text(value) {
@@ -44,7 +44,7 @@ function options(app) {
   search.addEventListener("input", refresh);
   only.addEventListener("change", refresh);
   refresh();
-  return [h("h2", null, "Options", found), h("div.form", null, search, changed ? h("label.check", { for: "options_changed" }, only, h("span", null, "only those that differ from their defaults")) : null), body, h("p.note", null, "Lengths in metres, angles in radians, as sterna uses them inside.")];
+  return [h("h2", null, "Options", found), h("div.form", null, search, changed ? h("label.check", { for: "options_changed" }, only, h("span", null, "only options that differ from their defaults")) : null), body, h("p.note", null, "Lengths in metres, angles in radians.")];
 }
 
 /** Anything of the manifest as nested lists that open on demand. */

@@ -47,14 +47,14 @@ export function chart_section(app) {
   const { state, series } = app;
   const figures = app.columns.filter((column) => column.kind === "figure").map((column) => [column.key, column.unit ? `${column.title} [${column.unit}]` : column.title]);
   const parameters = series.parameters.map((name) => [name, name]);
-  const canvas = h("canvas", { role: "img", "aria-label": "Chart of a figure over a parameter" });
+  const canvas = h("canvas", { role: "img", "aria-label": "Chart of a quantity over a parameter" });
   const note = h("p.note");
   let chart = null;
   const draw = () => {
     const { column, lines, labels, n_left_out } = lines_of(app);
     app.n_points = lines.reduce((sum, line) => sum + line.points.filter((point) => point.y !== null).length, 0);
     app.n_lines = lines.length;
-    fill(note, n_left_out ? `${n_left_out} of ${series.cases.length} cases have no value here.` : "", lines.some((line) => line.points.some((point) => point.is_bad)) ? " A red cross is an INVALID mesh." : "", app.n_points ? "" : " Nothing to draw.");
+    fill(note, n_left_out ? `${n_left_out} of ${series.cases.length} cases have no value here.` : "", lines.some((line) => line.points.some((point) => point.is_bad)) ? " A red cross marks an INVALID mesh." : "", app.n_points ? "" : " Nothing to draw.");
     chart?.destroy();
     const is_log = column?.is_log && lines.every((line) => line.points.every((p) => p.y === null || p.y > 0));
     chart = new Chart(canvas, {

@@ -33,7 +33,7 @@ export function compare_section(app) {
     body.style.setProperty("--n_compared", String(Math.max(2, chosen.length)));
     if (!chosen.length) return fill(body, h("p.note", null, "Choose cases in the table to see them side by side."));
     const head = chosen.map((entry) =>
-      h("th.compared", { scope: "col" }, picture_of(entry), h("div.compared_name", null, entry.report ? h("a", { href: entry.report }, entry.name) : entry.name, h("button.small", { type: "button", title: `Take ${entry.name} out`, onclick: () => state.set({ compare: state.get("compare").filter((name) => name !== entry.name) }) }, "\u00d7"))),
+      h("th.compared", { scope: "col" }, picture_of(entry), h("div.compared_name", null, entry.report ? h("a", { href: entry.report }, entry.name) : entry.name, h("button.small", { type: "button", title: `Remove ${entry.name}`, onclick: () => state.set({ compare: state.get("compare").filter((name) => name !== entry.name) }) }, "\u00d7"))),
     );
     const rows = app.columns
       .filter((column) => column.key !== "name")
@@ -48,7 +48,7 @@ export function compare_section(app) {
         });
         return h("tr", { class: is_different ? "different" : null }, h("th", { scope: "row" }, column.title, column.unit ? h("small", null, ` [${column.unit}]`) : null), cells);
       });
-    fill(body, h("div.scroll", null, h("table.compare", { id: "compare" }, h("thead", null, h("tr", null, h("td"), head)), h("tbody", null, rows))), h("p.note", null, "Differences are to the first case."));
+    fill(body, h("div.scroll", null, h("table.compare", { id: "compare" }, h("thead", null, h("tr", null, h("td"), head)), h("tbody", null, rows))), h("p.note", null, "Differences are relative to the first case."));
   };
   state.on(["compare"], refresh);
   refresh();

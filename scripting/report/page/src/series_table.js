@@ -68,6 +68,6 @@ export function table_section(app) {
     } });
     return h("label.check", null, box, h("span", null, column.title));
   });
-  const none = button("none chosen", () => state.set({ compare: [] }), { kind: ".small", id: "compare_none", title: "Choose no case for the comparison" });
+  const none = button("clear selection", () => state.set({ compare: [] }), { kind: ".small", id: "compare_none", title: "Remove all cases from the comparison" });
   return h("section.cases", null, h("div.section_head", null, h("h2", null, "Cases"), h("details.columns", null, h("summary", null, "columns"), h("div.column_list", null, boxes)), none), h("div.scroll", null, h("table.list", { id: "cases" }, h("thead", null, head), body)));
 }

@@ -16,7 +16,7 @@ function open_gate(app, gate) {
   const has_places = app.report.places.some((place) => place.gate === gate.gate && (gate.measure ? place.measure === gate.measure : place.state === "invalid"));
   const has_histogram = app.report.histograms.some((histogram) => histogram.measure === gate.measure);
   const buttons = [];
-  if (has_places) buttons.push(button("places", (event) => (event.stopPropagation(), app.state.set({ gate: gate.gate, tab: "places", markers: true })), { title: `Worst places of ${gate.gate}`, kind: ".small" }));
+  if (has_places) buttons.push(button("places", (event) => (event.stopPropagation(), app.state.set({ gate: gate.gate, tab: "places", markers: true })), { title: `Worst locations of ${gate.gate}`, kind: ".small" }));
   if (has_histogram)
     buttons.push(button("histogram", (event) => (event.stopPropagation(), app.state.set({ tab: "histograms" }), app.show_histogram?.(gate.measure)), { title: `Histogram: ${gate.title}`, kind: ".small" }));
   return buttons;
@@ -34,7 +34,7 @@ function counts_text(gate) {
   const is_hard = gate.beyond_hard > (gate.forced ?? 0), soft = typeof gate.limits?.target === "number" ? "the target" : "the usual limit";
   const parts = [`${count_text(n)} ${gate.counted === "area" ? "lines" : gate.counted} beyond ${is_hard ? "the hard limit" : soft}`];
   if (gate.share_beyond > 0) parts.push(`${percent_text(gate.share_beyond)} of the ${gate.share_of}`);
-  if (typeof gate.separate_places === "number") parts.push(`at ${count_text(gate.separate_places)} ${gate.separate_places === 1 ? "place" : "places"}`);
+  if (typeof gate.separate_places === "number") parts.push(`at ${count_text(gate.separate_places)} ${gate.separate_places === 1 ? "location" : "locations"}`);
   if (gate.too_large) parts.push(gate.too_small ? `${count_text(gate.too_large)} too large` : "too large");
   if (gate.too_small) parts.push(gate.too_large ? `${count_text(gate.too_small)} too small` : "too small");
   return parts.join(", ") + (is_hard && gate.beyond_target > gate.beyond_hard ? `; ${count_text(gate.beyond_target)} beyond ${soft}` : "");

@@ -21,14 +21,14 @@ function range_fields(app) {
   const apply = () => {
     const range = [low.valueAsNumber, high.valueAsNumber];
     const field = app.field(state.get("color"));
-    const why = !range.every(Number.isFinite) ? "two numbers, please" : range[0] >= range[1] ? "the first must be the lower one" : field?.is_log && range[0] <= 0 ? "a logarithmic bar starts above 0" : "";
+    const why = !range.every(Number.isFinite) ? "two numbers are required" : range[0] >= range[1] ? "the first number must be lower than the second" : field?.is_log && range[0] <= 0 ? "a logarithmic colour bar must start above 0" : "";
     wrong.textContent = why;
     if (!why) state.set({ range });
   };
   const most = () => state.set({ range: app.range_of_most(app.field(state.get("color"))) });
   low.addEventListener("change", apply);
   high.addEventListener("change", apply);
-  const row = h("div.range", null, h("span", null, "Range"), low, h("span", null, "to"), high, button("Whole", () => state.set({ range: null }), { title: "From the least to the greatest value of what is shown", id: "range_whole", kind: ".small" }), button("Most", most, { title: "Without the 1 % of the values at either end", id: "range_most", kind: ".small" }), wrong);
+  const row = h("div.range", null, h("span", null, "Range"), low, h("span", null, "to"), high, button("Whole", () => state.set({ range: null }), { title: "From the smallest to the largest value shown", id: "range_whole", kind: ".small" }), button("Most", most, { title: "Without 1 % of the values at each end", id: "range_most", kind: ".small" }), wrong);
   const refresh = () => {
     const field = app.field(state.get("color"));
     row.hidden = !field || state.get("by_limits");
@@ -90,7 +90,7 @@ export function surface_tab(app) {
   state.on(["color"], refresh);
   refresh();
   const edges = check_of("edges of the mesh", "edges_box", state.get("edges"), (is_on) => state.set({ edges: is_on }));
-  const markers = check_of("all worst places as markers", "markers_box", state.get("markers"), (is_on) => state.set({ markers: is_on }));
+  const markers = check_of("all worst locations as markers", "markers_box", state.get("markers"), (is_on) => state.set({ markers: is_on }));
   state.on(["edges", "markers"], (values) => {
     edges.firstChild.checked = values.edges;
     markers.firstChild.checked = values.markers;
@@ -101,7 +101,7 @@ export function surface_tab(app) {
   return [
     h("h2", null, "Colour"),
     h("div.form", null, color, map, range_fields(app), by_limits, about, edges, report.places.length ? markers : null),
-    surface.shown < surface.total ? h("p.note.thinned", null, `Thinned: the picture holds ${count_text(surface.shown)} of ${count_text(surface.total)} triangles. Tables, places and histograms are of the whole mesh.`) : null,
+    surface.shown < surface.total ? h("p.note.thinned", null, `Thinned: the picture holds ${count_text(surface.shown)} of ${count_text(surface.total)} triangles. Tables, locations and histograms describe the whole mesh.`) : null,
     patches_list(app),
   ];
 }

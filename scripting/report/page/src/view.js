@@ -84,7 +84,7 @@ export class View {
     const context = this.canvas.getContext("webgl2", { antialias: true, powerPreference: "high-performance" });
     if (!context) throw new ReportError("The picture cannot be drawn: this browser has no WebGL 2 (switched off, or no driver of the graphics card). The tables beside it are complete.");
     container.prepend(this.canvas);
-    this.canvas.addEventListener("webglcontextlost", () => handlers.lost?.("The graphics card took its memory back: reload the page to see the picture again."));
+    this.canvas.addEventListener("webglcontextlost", () => handlers.lost?.("The graphics card released the memory of the picture: reload the page to see it again."));
     this.renderer = new WebGLRenderer({ canvas: this.canvas, context });
     this.renderer.outputColorSpace = LinearSRGBColorSpace;
     this.renderer.setPixelRatio(Math.min(window.devicePixelRatio || 1, k_most_pixels));

@@ -44,7 +44,7 @@ export class Bench {
     this.message = h("div.view_message", { role: "status", hidden: true });
     this.old_mark = h("div.old_mark", { role: "status", hidden: true });
     this.legends = h("div.legends");
-    this.thin_note = h("div.thin_note", { hidden: true, title: "All of it is drawn where a graphics card is fast enough, and into saved pictures" }, "thinned: all triangles would take too long here");
+    this.thin_note = h("div.thin_note", { hidden: true, title: "All triangles are drawn if the graphics card is fast enough, and in saved pictures" }, "thinned: drawing all triangles would take too long on this machine");
     this.info = h("div.info", { "aria-live": "polite", hidden: true });
     this.kept = h("div.info.kept", { hidden: true, id: "picked" });
     this.view_box = h("div.view", null, h("div.view_top", null, this.toolbar(), this.old_mark, this.kept, this.info), this.legends, this.message, this.thin_note, h("div.split_names", { "aria-hidden": "true" }, h("span", null, "before"), h("span", null, "now")));
@@ -138,7 +138,7 @@ export class Bench {
         if (news.is_over) return this.say("The workbench has ended: start sterna view again.");
         await this.take_news(news);
       } catch (error) {
-        this.say(`The program does not answer: ${error instanceof ReportError ? error.message : "has it ended?"}`);
+        this.say(`The program does not respond: ${error instanceof ReportError ? error.message : "has it ended?"}`);
         await new Promise((resolve) => setTimeout(resolve, k_retry));
       }
     }
@@ -392,7 +392,7 @@ export class Bench {
   toolbar() {
     const look = (name) => this.view?.look_along(name, this.view.visible_points());
     const views = Object.entries(k_view_titles).map(([name, title], k) => button(title, () => look(name), { title: `Look from: ${name} (key ${k + 1})`, id: `view_${name}` }));
-    const fit = button("Fit", () => this.view?.fit(this.view.visible_points()), { title: "All that is shown, into the picture (key F)", id: "view_fit" });
+    const fit = button("Fit", () => this.view?.fit(this.view.visible_points()), { title: "Fit everything that is shown into the picture (key F)", id: "view_fit" });
     const edges = button("Edges", () => this.state.set({ edges: !this.state.get("edges") }), { title: "Edges (key E)", pressed: true, id: "toggle_edges" });
     this.state.on(["edges"], (values) => edges.setAttribute("aria-pressed", String(values.edges)));
     const colour = h("select", { id: "color", title: "Colour", "aria-label": "Colour", onchange: () => this.state.set({ color: colour.value }) });
@@ -402,7 +402,7 @@ export class Bench {
       fill(colour, h("option", { value: "patch" }, "by patch"), fields.map((field) => h("option", { value: field.name }, field.unit ? `${field.title} [${field.unit}]` : field.title)));
       colour.value = fields.some((field) => field.name === this.state.get("color")) ? this.state.get("color") : "patch";
     });
-    const save = button("PNG", () => this.save_picture(), { title: "Save the picture with its legends", id: "save_picture" });
+    const save = button("PNG", () => this.save_picture(), { title: "Save the picture with legends", id: "save_picture" });
     return h("div.toolbar", { role: "toolbar", "aria-label": "View" }, h("div.group", null, views, fit), h("div.group", null, edges), h("div.group", null, colour), h("div.group", null, map), h("div.group", null, save));
   }
 

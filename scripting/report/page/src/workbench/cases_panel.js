@@ -27,7 +27,7 @@ export class CasesPanel {
     this.sort = { key: null, is_down: false };
     this.grid = h("div.case_grid", { id: "case_grid" });
     this.table = h("table.list", { id: "case_table" });
-    this.take = button("Take pictures of all", () => this.take_all(), { title: "Opens each case once and keeps its picture, seen as the picture is now", id: "take_pictures", kind: ".small" });
+    this.take = button("Take pictures of all", () => this.take_all(), { title: "Opens each case once and stores its picture from the current camera position", id: "take_pictures", kind: ".small" });
     this.element = h("div.cases_panel", { id: "cases_panel", role: "region", "aria-label": "Cases of the series" }, h("h2", null, "Cases ", h("span.h2_buttons", null, this.take, button("Close", () => this.show(false), { title: "Back to the picture (key C)", id: "cases_close", kind: ".small" }))), this.grid, h("div.scroll", null, this.table));
     bench.state.on(["is_in_cases"], ({ is_in_cases }) => (this.element.hidden = !is_in_cases));
     bench.state.on(["news"], () => this.mark());

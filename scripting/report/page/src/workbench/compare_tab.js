@@ -19,19 +19,19 @@ function rows_of(before, now) {
 export function compare_tab(bench) {
   const { state } = bench;
   const body = h("div", { id: "compare_tab" });
-  const flick = button("Show the one before", () => state.set({ is_before: !state.get("is_before") }), { title: "Switch between the two (key B)", pressed: false, id: "flick" });
-  const beside = button("Side by side", () => state.set({ is_split: !state.get("is_split") }), { title: "Both pictures from one camera (key S)", pressed: false, id: "side_by_side" });
+  const flick = button("Show the previous run", () => state.set({ is_before: !state.get("is_before") }), { title: "Switch between the two (key B)", pressed: false, id: "flick" });
+  const beside = button("Side by side", () => state.set({ is_split: !state.get("is_split") }), { title: "Show both pictures from the same camera (key S)", pressed: false, id: "side_by_side" });
   const only = h("input", { type: "checkbox", id: "compare_only", onchange: () => refresh() });
   const refresh = () => {
     const shown = bench.chosen();
     flick.setAttribute("aria-pressed", String(state.get("is_before")));
     beside.setAttribute("aria-pressed", String(state.get("is_split")));
-    if (!shown?.previous) return fill(body, h("p.note", null, "There is no run before this one that had the chosen object."));
+    if (!shown?.previous) return fill(body, h("p.note", null, "No previous run has the selected object."));
     const rows = rows_of(shown.previous.scene, shown.scene).filter((row) => !only.checked || row.is_other);
     fill(
       body,
       h("h2", null, shown.key),
-      h("div.form", null, h("div.buttons", null, flick, beside), h("label.check", null, only, "only what has changed")),
+      h("div.form", null, h("div.buttons", null, flick, beside), h("label.check", null, only, "only changes")),
       h("table.list", { id: "compare" }, h("thead", null, h("tr", null, ["", "before", "now"].map((t) => h("th", null, t)))), h("tbody", null, rows.map((row) => h(`tr${row.is_other ? ".changed" : ""}`, null, h("td", null, row.name), h("td", null, row.before), h("td", null, row.now))))),
     );
   };

@@ -10,7 +10,7 @@ export function cuts_tab(bench) {
   const { state } = bench;
   const note = h("p.note");
   const axis = select_of("Plane across", "cut_axis", ["x", "y", "z"].map((name) => [name, name]), "y", () => (range(), ask()));
-  const slider = h("input.slider.wide", { type: "range", min: 0, max: k_steps, step: 1, value: k_steps / 2, id: "cut_place", "aria-label": "Place of the plane", oninput: () => ask() });
+  const slider = h("input.slider.wide", { type: "range", min: 0, max: k_steps, step: 1, value: k_steps / 2, id: "cut_place", "aria-label": "Position of the plane", oninput: () => ask() });
   const place = h("output.cut_place", { id: "cut_place_text" });
   const colours = h("div");
   const cells = h("p.note", { id: "cut_cells" });
@@ -60,7 +60,7 @@ export function cuts_tab(bench) {
   const refresh = () => {
     const mesh = mesh_of(bench);
     form.hidden = !mesh;
-    note.textContent = mesh ? "Drag the plane; cells come as they are cut." : "Only volume meshes have cells to cut: \u201cMesh now\u201d makes one.";
+    note.textContent = mesh ? "Drag the plane; cells appear when they are cut." : "Only volume meshes have cells to cut: \u201cMesh now\u201d makes a volume mesh.";
     const { cut } = state.values;
     fill(colours, cut ? select_of("Colour of the cells", "cut_color", [["kind", "by kind of cell"], ...cut.fields.map((field) => [field.name, field.unit ? `${field.title} [${field.unit}]` : field.title])], state.get("cut_color"), (name) => state.set({ cut_color: name })) : null);
     cells.textContent = cut ? `${count_text(cut.n)}${cut.total > cut.n ? ` of ${count_text(cut.total)}` : ""} cells` : "";

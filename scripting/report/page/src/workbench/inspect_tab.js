@@ -34,7 +34,7 @@ export function inspect_tab(bench) {
   const body = h("div", { id: "inspect_tab" });
   const refresh = () => {
     const surface = surface_of(bench);
-    if (!surface) return fill(body, h("p.note", null, "There is no surface of triangles yet: \u201cMesh now\u201d makes those that the script meshes."));
+    if (!surface) return fill(body, h("p.note", null, "There is no triangulated surface yet: \u201cMesh now\u201d makes the surfaces of the script."));
     const report = known.get(surface.scene);
     const ask = async () => {
       start.disabled = true;
@@ -46,13 +46,13 @@ export function inspect_tab(bench) {
         start.disabled = false;
       }
     };
-    const start = button("Inspect", ask, { title: "What volume_mesh will say of this surface, layers apart", id: "inspect_start", kind: ".small" });
+    const start = button("Inspect", ask, { title: "Predict how volume_mesh will treat this surface, without layers", id: "inspect_start", kind: ".small" });
     fill(
       body,
-      h("h2", null, surface.key, report ? [" ", h(`span.chip.${report.ok ? "pass" : "fail"}`, null, report.ok ? "volume_mesh will take it" : "volume_mesh will refuse it")] : null),
-      report ? null : [h("p.note", null, "Finds what is wrong with the surface: gaps, crossings, needles, thin and narrow places. Layers are looked at by inspect{ wall, layers = 30, first_height = 1e-5 } in the script."), h("div.buttons", null, start)],
+      h("h2", null, surface.key, report ? [" ", h(`span.chip.${report.ok ? "pass" : "fail"}`, null, report.ok ? "volume_mesh will accept it" : "volume_mesh will refuse it")] : null),
+      report ? null : [h("p.note", null, "Finds defects of the surface: gaps, crossings, sliver triangles, thin and narrow regions. To inspect layers, use inspect{ wall, layers = 30, first_height = 1e-5 } in the script."), h("div.buttons", null, start)],
       report?.findings.map((finding, k) => finding_element(bench, surface, finding, k)) ?? null,
-      report && !report.findings.length ? h("p.note", null, "Nothing was found.") : null,
+      report && !report.findings.length ? h("p.note", null, "No findings.") : null,
     );
   };
   bench.on_in_tab("inspect", ["shown", "chosen"], refresh);

@@ -27,7 +27,7 @@ export function mesh_tab(bench) {
       h("table.facts", null, h("tbody", null, scene.facts.map(([name, text]) => h("tr", null, h("th", { scope: "row" }, name), h("td", null, text))))),
       h("h2", null, "Gates"),
       scene.gates.map(gate_row),
-      h("h2", null, "Worst places"),
+      h("h2", null, "Worst locations"),
       h(
         "div.rows",
         null,

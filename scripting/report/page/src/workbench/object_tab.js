@@ -6,7 +6,7 @@ export function object_tab(bench) {
   const refresh = () => {
     const shown = bench.chosen();
     const object = bench.object(bench.state.get("chosen"));
-    if (!shown?.scene || !object) return fill(body, h("p.note", null, "Choose something of the tree at the left."));
+    if (!shown?.scene || !object) return fill(body, h("p.note", null, "Select an object in the tree on the left."));
     const { scene } = shown;
     const { surface } = scene;
     const patches = scene.patches.filter((patch) => patch.triangles > 0);
@@ -14,7 +14,7 @@ export function object_tab(bench) {
       body,
       h("h2", null, object.key, h("small", null, object.verb ? ` ${object.verb}{}` : "", object.line ? `, line ${object.line}` : "")),
       h("p.note", null, object.text),
-      scene.is_quick ? h("p.note", { id: "sketch_note" }, "A sketch: solids stand side by side until they are united.") : null,
+      scene.is_quick ? h("p.note", { id: "sketch_note" }, "A sketch: solids are shown separately until they are united.") : null,
       surface.shown < surface.total ? h("p.note.thinned", null, `The picture is thinned: ${count_text(surface.shown)} of ${count_text(surface.total)} triangles.`) : null,
       h("table.facts", null, h("tbody", null, scene.facts.map(([name, text]) => h("tr", null, h("th", { scope: "row" }, name), h("td", null, text))))),
       scene.components?.length

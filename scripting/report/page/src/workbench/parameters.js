@@ -83,9 +83,9 @@ function row_of(parameter, send) {
 export function parameters_panel(bench) {
   const sender = new Sender(bench);
   const list = h("div.parameters", { id: "parameters" });
-  const save = button("Write to script", () => post("save", {}).catch((error) => bench.say_for_a_while(sentence_of(error))), { title: "These values become the defaults in the script's args{}", kind: ".small", id: "save_values" });
-  const reset = button("Reset", () => sender.send(Object.fromEntries((bench.state.get("news")?.parameters ?? []).map(({ name }) => [name, null])), false), { title: "All values as the script has them", kind: ".small", id: "reset_values" });
-  const command = h("code.command", { title: "The same on the command line" });
+  const save = button("Write to script", () => post("save", {}).catch((error) => bench.say_for_a_while(sentence_of(error))), { title: "Write these values as defaults into args{} of the script", kind: ".small", id: "save_values" });
+  const reset = button("Reset", () => sender.send(Object.fromEntries((bench.state.get("news")?.parameters ?? []).map(({ name }) => [name, null])), false), { title: "Reset all values to those of the script", kind: ".small", id: "reset_values" });
+  const command = h("code.command", { title: "The same run on the command line" });
   const panel = h("section.parameters_panel", { hidden: true }, h("h2", null, "Arguments ", h("span.h2_buttons", null, reset, save)), list, command);
   let rows = new Map(), signature = "";
   const refresh = ({ news }) => {

@@ -82,7 +82,7 @@ export class Picking {
   }
 
   place_button(pick) {
-    return button("Copy place", () => this.copy(`{ ${pick.at.map((x) => Number(x.toPrecision(7))).join(", ")} }`), { kind: ".small", id: "copy_place" });
+    return button("Copy position", () => this.copy(`{ ${pick.at.map((x) => Number(x.toPrecision(7))).join(", ")} }`), { kind: ".small", id: "copy_place" });
   }
 
   /** Rings at the picks and the line between them follow the camera. */
@@ -104,7 +104,7 @@ export class Picking {
       await navigator.clipboard.writeText(text);
       this.bench.say_for_a_while(`Copied: ${text}`);
     } catch {
-      this.bench.say_for_a_while(`This browser does not let pages copy. The text: ${text}`);
+      this.bench.say_for_a_while(`This browser does not allow pages to copy. The text is: ${text}`);
     }
     this.copied = text;
   }

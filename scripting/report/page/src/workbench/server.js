@@ -49,9 +49,9 @@ export async function get_picture(picture) {
 
 /** JSON and arrays of a block: {json, arrays}. \throws ReportError */
 function read_block(buffer) {
-  if (buffer.byteLength < 8) throw new ReportError("The picture is cut off.");
+  if (buffer.byteLength < 8) throw new ReportError("The picture is incomplete.");
   const length = new DataView(buffer).getUint32(0, true);
-  if (8 + length > buffer.byteLength || length % 4 !== 0) throw new ReportError("The picture is damaged: its JSON is longer than all of it.");
+  if (8 + length > buffer.byteLength || length % 4 !== 0) throw new ReportError("The picture is damaged: its JSON is longer than the whole picture.");
   const json = JSON.parse(new TextDecoder().decode(new Uint8Array(buffer, 8, length)));
   return { json, arrays: new Arrays(buffer.slice(8 + length)) };
 }

@@ -94,7 +94,7 @@ export function tree_panel(bench) {
         h("div.tree_patches", null, patches),
       );
     });
-    fill(list, rows.length ? rows : h("p.note", null, "Nothing yet."));
+    fill(list, rows.length ? rows : h("p.note", null, "No objects yet."));
     for (const details of list.querySelectorAll("details.component")) details.open = open.has(details.dataset.component);
   };
   bench.state.on(["news", "shown", "chosen"], refresh);
