@@ -213,6 +213,9 @@ void add_mesh_command(CLI::App& app, MeshCommand& mesh, OptionOverrides& set, Re
   command->add_flag("--wrap", mesh.is_wrapped, "wrap the files first, see `sterna wrap --help`; options of wrap with --set wrap.edge=5mm --set wrap.gap=20mm");
   command->add_flag("--remesh", mesh.is_remeshed,
                     "remesh the surface first, as `sterna remesh`; options of remesh with --set remesh.max_edge=0.1 --set remesh.curvature_angle=10*deg");
+  command->add_option_function<std::string>(
+      "--fill-crevices", [&mesh](const std::string& width) { mesh.crevices.emplace_back("width", width); },
+      "make crevices and gaps between facing walls solid up to this width, for example 20mm; other options with --set fill_crevices.angle=45*deg");
   surfmesh::StitchOptions surface;
   volmesh::MeshCase volume;
   OptionTable of_triangulations = sterna::options_of(surface), of_both = volmesh::options_of(volume);
@@ -243,10 +246,11 @@ void add_mesh_command(CLI::App& app, MeshCommand& mesh, OptionOverrides& set, Re
       "mesh are set with --set surface_mesh.max_edge=0.2; `sterna surface --help` lists them.");
   command->final_callback([&, command] {
     for (const auto& [name, value] : set)
-      (name.starts_with("half.")     ? mesh.half
-       : name.starts_with("remesh.") ? mesh.remesh
-       : name.starts_with("write.")  ? mesh.writing
-                                     : mesh.options)
+      (name.starts_with("half.")            ? mesh.half
+       : name.starts_with("remesh.")        ? mesh.remesh
+       : name.starts_with("fill_crevices.") ? mesh.crevices
+       : name.starts_with("write.")         ? mesh.writing
+                                            : mesh.options)
           .emplace_back(name, value);
     mesh.given = given_options(*command);
     request.execute = [&](const CommandContext& context) { return execute(mesh, context); };

@@ -23,6 +23,7 @@
 #include "scripting/series/case_worker.h"
 #include "scripting/terminal/exit_status.h"
 #include "scripting/values/disc_verbs.h"
+#include "scripting/values/filled_crevices.h"
 #include "scripting/values/flow_verbs.h"
 #include "scripting/values/layer_options.h"
 #include "scripting/values/manifest.h"
@@ -188,9 +189,9 @@ MeshValue continue_mesh(const StageContent& steps, const MeshCommand& command, c
   const auto refuse_done = [&](std::string_view option) {
     throw Error({.code = ErrorCode::bad_argument, .attempted = "option " + std::string(option), .problem = done, .hint = "start again from the surface"});
   };
-  refuse_without_effect(command.given, {"--half", "--auto", "--repair", "--wrap", "--remesh"}, "mesh",
+  refuse_without_effect(command.given, {"--half", "--auto", "--repair", "--wrap", "--remesh", "--fill-crevices"}, "mesh",
                         "the surface is complete already in " + command.inputs.front(), "start again from the surface");
-  for (const OptionOverrides* options : {&command.half, &command.remesh})
+  for (const OptionOverrides* options : {&command.half, &command.remesh, &command.crevices})
     if (!options->empty()) refuse_done(options->front().first);
   if (!command.discs.empty()) refuse_done("--disc");
   if (!command.sheets.empty()) refuse_done("--wake-sheet");
@@ -246,6 +247,17 @@ void halve(const MeshCommand& command, SurfaceValue& wall, const CommandContext&
   HalfOptions options;
   set_options(sterna::options_of(options), command.half, context);
   wall = half_surface(wall, options, context.run);
+}
+
+/// With --fill-crevices: fills crevices of the surface that gets the layers.
+void fill_wall(const MeshCommand& command, SurfaceValue& wall, const CommandContext& context) {
+  if (command.crevices.empty()) return;
+  volmesh::CreviceOptions options;
+  set_options(sterna::options_of(options), command.crevices, context);
+  if (is_automatic(options.width))
+    throw Error(
+        {.code = ErrorCode::bad_argument, .attempted = "option " + command.crevices.front().first, .problem = "is given without --fill-crevices WIDTH"});
+  wall = filled_crevices(wall, options, context.run);
 }
 
 std::vector<volmesh::SizeSource> sources_of(const std::vector<std::string>& texts) {
@@ -386,6 +398,7 @@ MeshValue make_mesh_of_models(const MeshCommand& command, const std::vector<Inpu
                                       : mesh_model_files(inputs, reading, recipe, surface_part, reuse, volume_options.periodic);
   remesh_wall(command, volume_options, wall, reuse, context);
   halve(command, wall, context);
+  fill_wall(command, wall, context);
   read_farfield_of(volume_options, wall, context.run);
   add_sources(command, wall.mesh, volume_options);
   return fill(command, std::move(wall), volume_options, k_surface_end, reuse, context);
@@ -417,6 +430,7 @@ MeshValue make_mesh(const MeshCommand& command, const Reuse& reuse, const Comman
   SurfaceValue wall = wall_of(command, inputs, asked, reuse, context);
   remesh_wall(command, volume_options, wall, reuse, context);
   halve(command, wall, context);
+  fill_wall(command, wall, context);
   read_farfield_of(volume_options, wall, context.run);
   add_sources(command, wall.mesh, volume_options);
   return fill(command, std::move(wall), volume_options, k_read_end, reuse, context);

@@ -56,6 +56,7 @@ struct MeshCommand {
   OptionOverrides half;               ///< --set half.axis=z; only with is_half
   bool is_remeshed = false;           ///< the surface is remeshed first
   OptionOverrides remesh;             ///< --set remesh.max_edge=0.1; only with is_remeshed
+  OptionOverrides crevices;           ///< --fill-crevices 0.1 as {"width", "0.1"} and --set fill_crevices.angle=45; empty: nothing is filled
   OptionOverrides writing;            ///< --numbering and --set write.numbering=both
   CacheChoice cache;
   std::vector<std::string> given;  ///< given_options

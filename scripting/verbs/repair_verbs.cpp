@@ -3,6 +3,7 @@
 #include <array>
 
 #include "scripting/lua/verb_tools.h"
+#include "scripting/values/filled_crevices.h"
 #include "scripting/values/repair_surfaces.h"
 #include "scripting/values/wrap_surfaces.h"
 
@@ -38,7 +39,32 @@ ScriptValue repair_parts(const ScriptCall& call) {
   return std::make_shared<const SurfaceValue>(repair_surfaces(items, stitching, options, call.session.reuse(), call.session.context.part("repair", 0.0, 1.0)));
 }
 
-constexpr std::array<ScriptVerb, 1> k_repair_verbs = {{
+constexpr std::string_view k_crevices_usage = "fill_crevices{ wall, width = 0.05 }";
+
+std::string crevices_help() {
+  volmesh::CreviceOptions options;
+  return options_help(sterna::options_of(options));
+}
+
+ScriptValue make_filled_crevices(const ScriptCall& call) {
+  const ScriptTable table = table_argument(call, 0, k_crevices_usage);
+  volmesh::CreviceOptions options;
+  const OptionTable schema = sterna::options_of(options);
+  TableReader reader(table, call.attempted());
+  const std::vector<ScriptValue>& items = reader.items();
+  const SurfaceHandle* wall = items.size() == 1 ? std::get_if<SurfaceHandle>(&items.front()) : nullptr;
+  if (wall == nullptr) reader.add_problem("expected one surface (from read_surface, surface_mesh ...): " + std::string(k_crevices_usage));
+  reader.read_options(schema);
+  apply_overrides(call, schema);
+  reader.finish();
+  return std::make_shared<const SurfaceValue>(filled_crevices(**wall, options, call.session.context.part("fill_crevices", 0.0, 1.0)));
+}
+
+constexpr std::array<ScriptVerb, 2> k_repair_verbs = {{
+    {"fill_crevices", k_crevices_usage,
+     "Makes narrow crevices and gaps of a wall solid, up to a width: no boundary layer has room there, and solvers diverge beside vertices without a layer. "
+     "Reports location, width, volume and distance of each.",
+     make_filled_crevices, crevices_help, true, "surface"},
     {"repair", k_repair_usage,
      "Closes seams and holes of surfaces, cuts crossing facets, keeps the outer hull, removes sheets and inner walls, and recognises half models. Changes as "
      "little as possible and reports each change.",

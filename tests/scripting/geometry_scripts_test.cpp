@@ -95,7 +95,7 @@ TEST_F(GeometryScripts, FunctionsDeformModels) {
   EXPECT_NEAR(number("box{ {0,0,0}, {1,2,1} }:deform{ 'bend.dat', kernel = 'wendland_c2' }.min[3]"), 1.0, 1e-9);
   EXPECT_THAT(error("box{ {0,0,0}, {1,1,1} }:deform{ function(x, y, z) return 0, 0 end }"), HasSubstr("must return 3 numbers here, but value 3 is nil"));
   EXPECT_THAT(error("box{ {0,0,0}, {1,1,1} }:deform{ function(x, y, z) return nosuch.x, 0, 0 end }"), AllOf(HasSubstr("case.lua:1"), HasSubstr("nosuch")));
-  EXPECT_THAT(error("box{ {0,0,0}, {1,1,1} }:deform{ function(x, y, z) return 0, 0, y > 0.3 and 1 or 0 end }"), HasSubstr("a kink or a step there"));
+  EXPECT_THAT(error("box{ {0,0,0}, {1,1,1} }:deform{ function(x, y, z) return 0, 0, y > 0.3 and 1 or 0 end }"), HasSubstr("a kink or step there"));
   EXPECT_THAT(error("box{ {0,0,0}, {1,1,1} }:deform{ function(x, y, z) return -2*x, 0, 0 end }"), HasSubstr("the deformation folds space"));
   EXPECT_THAT(error("box{ {0,0,0}, {1,1,1} }:deform{ function(x, y, z) return 0, 0, 0 end, kernel = 'thin_plate' }"), HasSubstr("unknown key \"kernel\""));
 }

@@ -1,0 +1,471 @@
+// Steps: tetrahedra without layers (fluid_of), thin tetrahedra between walls (Filler), what of them becomes solid (Filler::fill), the new wall
+// (Filler::result).
+#include "volmesh/fill_crevices.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <map>
+#include <optional>
+#include <set>
+
+#include "geom/base/disjoint_sets.h"
+#include "geom/base/error.h"
+#include "geom/base/sort_unique.h"
+#include "geom/mesh/bvh.h"
+#include "geom/tets/tet_mesh.h"
+#include "volmesh/volume_mesh.h"
+
+namespace sterna::volmesh {
+namespace {
+
+using Face = std::array<std::uint32_t, 3>;
+
+constexpr double k_size_growth = 2.0;  ///< size growth away from the wall, where tetrahedra have no influence
+constexpr double k_meshed = 0.8;       ///< share of the progress
+constexpr int k_most_rounds = 100;     ///< rounds of filling; aircraft need about five
+constexpr double k_same_place = 1e-6;  ///< over the body length: open boundaries were moved at most this far into their plane
+constexpr std::uint32_t k_none = tets::k_none;
+
+Face sorted(Face f) {
+  std::sort(f.begin(), f.end());
+  return f;
+}
+
+/// A triangle of the wall as it is at present. Normal into the fluid.
+struct WallFace {
+  Face nodes;
+  std::uint32_t fluid = k_none;  ///< the tetrahedron beside it
+  std::uint32_t given = k_none;  ///< the triangle of the given wall; none for faces between solid and fluid
+  std::uint32_t solid = k_none;  ///< the solid tetrahedron behind a face that is not of the given wall
+  Vec3 normal;                   ///< unit
+  Vec3 middle;
+};
+
+double thickness_of(const std::array<Vec3, 4>& x) {
+  const double volume = std::abs(dot(x[1] - x[0], cross(x[2] - x[0], x[3] - x[0]))) / 6.0;
+  double area = 0.0;
+  for (const auto& f : tets::k_face) area = std::max(area, 0.5 * norm(cross(x[f[1]] - x[f[0]], x[f[2]] - x[f[0]])));
+  double thickness = area > 0.0 ? 3.0 * volume / area : 0.0;
+  constexpr std::array<std::array<int, 4>, 3> k_opposite = {{{0, 1, 2, 3}, {0, 2, 1, 3}, {0, 3, 1, 2}}};
+  for (const auto& [a, b, c, d] : k_opposite) {
+    const Vec3 n = cross(x[static_cast<std::size_t>(b)] - x[static_cast<std::size_t>(a)], x[static_cast<std::size_t>(d)] - x[static_cast<std::size_t>(c)]);
+    const double length = norm(n);
+    if (length > 0.0) thickness = std::min(thickness, std::abs(dot(n, x[static_cast<std::size_t>(c)] - x[static_cast<std::size_t>(a)])) / length);
+  }
+  return thickness;
+}
+
+class Filler {
+ public:
+  Filler(const TriMesh& wall, const HybridMesh& mesh, const CreviceOptions& options, const RunContext& context)
+      : wall_(wall), options_(options), context_(context), is_wall_node_(mesh.points.size(), 0) {
+    std::vector<tets::Corners> nodes;
+    nodes.reserve(mesh.tetrahedra.size());
+    for (const auto& tet : mesh.tetrahedra) nodes.push_back({tet[0].value(), tet[1].value(), tet[2].value(), tet[3].value()});
+    fluid_ = tets::connect(mesh.points.raw(), nodes, context);
+    find_wall();
+    require_same_wall();
+    find_thin();
+  }
+
+  void fill() {
+    for (int round = 0; round < k_most_rounds; ++round) {
+      context_.check_stop();
+      make_surface();
+      bool is_changed = fill_facing();
+      if (is_changed) make_surface();
+      is_changed = repair_topology() || is_changed;
+      if (!is_changed && !open_enclosed()) return;
+    }
+    throw Error({.code = ErrorCode::geometry_failed,
+                 .attempted = "filling crevices",
+                 .problem = fmt::format("tetrahedra still become solid after {} rounds", k_most_rounds),
+                 .hint = "use a smaller width"});
+  }
+
+  CreviceResult result() {
+    make_surface();
+    CreviceResult made;
+    CreviceReport& report = made.report;
+    report.n_triangles_before = static_cast<std::int64_t>(wall_.n_triangles());
+    find_left(report);
+    if (!has_solid()) {
+      made.wall = wall_;
+      report.n_triangles = report.n_triangles_before;
+      return made;
+    }
+    const std::vector<PatchId> patch_of_solid = patches_of_solid();
+    made.wall = new_wall(patch_of_solid);
+    report.n_triangles = static_cast<std::int64_t>(made.wall.n_triangles());
+    report_crevices(report);
+    return made;
+  }
+
+ private:
+  std::array<Vec3, 4> corners_of(std::uint32_t t) const {
+    const tets::Corners& n = fluid_.nodes[t];
+    return {fluid_.points[n[0]], fluid_.points[n[1]], fluid_.points[n[2]], fluid_.points[n[3]]};
+  }
+  Vec3 middle_of(std::uint32_t t) const {
+    const auto x = corners_of(t);
+    return 0.25 * (x[0] + x[1] + x[2] + x[3]);
+  }
+  double volume_of(std::uint32_t t) const {
+    const auto x = corners_of(t);
+    return std::abs(dot(x[1] - x[0], cross(x[2] - x[0], x[3] - x[0]))) / 6.0;
+  }
+  /// Corners of the face opposite to corner i, normal into the tetrahedron.
+  Face face_of(std::uint32_t t, int i) const {
+    const auto& f = tets::k_face[static_cast<std::size_t>(i)];
+    const tets::Corners& n = fluid_.nodes[t];
+    return {n[f[0]], n[f[1]], n[f[2]]};
+  }
+  bool is_solid(std::uint32_t t) const { return state_[t] == State::solid; }
+  bool has_solid() const { return std::ranges::find(state_, State::solid) != state_.end(); }
+
+  /// Nodes of the wall have the numbers of its vertices: without layers the boundary's points come first.
+  void find_wall() {
+    for (const TriangleId t : wall_.triangles.ids()) {
+      if (wall_.patches[wall_.triangle_patch[t]].kind != PatchKind::wall) continue;
+      const TriangleVertices& v = wall_.triangles[t];
+      triangle_of_.emplace(sorted({v[0].value(), v[1].value(), v[2].value()}), t.value());
+      for (const VertexId corner : v) is_wall_node_[corner.index()] = 1;
+    }
+  }
+
+  void require_same_wall() const {
+    const double length = body_length(wall_);
+    for (const VertexId v : wall_.points.ids())
+      if (is_wall_node_[v.index()] && norm(fluid_.points[v.index()] - wall_.points[v]) > k_same_place * length)
+        throw Error({.code = ErrorCode::internal,
+                     .attempted = "filling crevices",
+                     .problem = fmt::format("vertex {} of the wall is not at its place in the mesh of the fluid", v.value()),
+                     .hint = "report this surface"});
+  }
+
+  void find_thin() {
+    state_.assign(fluid_.nodes.size(), State::other);
+    thickness_.assign(fluid_.nodes.size(), 0.0);
+    at_node_.resize(wall_.n_vertices());
+    for (std::uint32_t t = 0; t < fluid_.nodes.size(); ++t) {
+      const tets::Corners& n = fluid_.nodes[t];
+      for (const std::uint32_t node : n)
+        if (node < at_node_.size() && is_wall_node_[node]) at_node_[node].push_back(t);
+      if (!std::ranges::all_of(n, [&](std::uint32_t node) { return is_wall_node_[node] != 0; })) continue;
+      thickness_[t] = thickness_of(corners_of(t));
+      state_[t] = thickness_[t] <= options_.width ? State::thin : State::between;
+    }
+  }
+
+  void make_surface() {
+    faces_.clear();
+    faces_at_.assign(wall_.n_vertices(), {});
+    const auto add = [&](WallFace face) {
+      const auto& [a, b, c] = face.nodes;
+      const Vec3 n = cross(fluid_.points[b] - fluid_.points[a], fluid_.points[c] - fluid_.points[a]);
+      const double length = norm(n);
+      face.normal = length > 0.0 ? n / length : Vec3{};
+      face.middle = (fluid_.points[a] + fluid_.points[b] + fluid_.points[c]) / 3.0;
+      for (const std::uint32_t node : face.nodes) faces_at_[node].push_back(static_cast<std::uint32_t>(faces_.size()));
+      faces_.push_back(face);
+    };
+    for (std::uint32_t t = 0; t < fluid_.nodes.size(); ++t) {
+      if (is_solid(t)) continue;
+      for (int i = 0; i < 4; ++i) {
+        const std::uint32_t across = fluid_.neighbours[t][static_cast<std::size_t>(i)];
+        const Face face = face_of(t, i);
+        if (across == k_none) {
+          const auto found = triangle_of_.find(sorted(face));
+          if (found != triangle_of_.end()) add({.nodes = face, .fluid = t, .given = found->second, .normal = {}, .middle = {}});
+        } else if (is_solid(across / 4)) {
+          add({.nodes = face, .fluid = t, .solid = across / 4, .normal = {}, .middle = {}});
+        }
+      }
+    }
+  }
+
+  /// Two faces that face each other across the fluid.
+  bool are_facing(const WallFace& a, const WallFace& b) const {
+    return dot(a.normal, b.normal) < -std::cos(options_.angle) && dot(a.normal, b.middle - a.middle) > 0.0 && dot(b.normal, a.middle - b.middle) > 0.0;
+  }
+
+  bool is_between_facing(std::uint32_t t) const {
+    const Vec3 middle = middle_of(t);
+    std::vector<std::uint32_t> around;
+    for (const std::uint32_t node : fluid_.nodes[t])
+      for (const std::uint32_t f : faces_at_[node])
+        if (dot(faces_[f].normal, middle - faces_[f].middle) > 0.0) around.push_back(f);
+    sort_unique(around);
+    for (std::size_t i = 0; i < around.size(); ++i)
+      for (std::size_t j = i + 1; j < around.size(); ++j)
+        if (are_facing(faces_[around[i]], faces_[around[j]])) return true;
+    return false;
+  }
+
+  bool fill_facing() {
+    std::vector<std::uint32_t> found;
+    for (std::uint32_t t = 0; t < state_.size(); ++t)
+      if (state_[t] == State::thin && is_between_facing(t)) found.push_back(t);
+    for (const std::uint32_t t : found) state_[t] = State::solid;
+    return !found.empty();
+  }
+
+  /// Where the wall is not manifold, the thinnest tetrahedron between walls becomes solid; where there is none, the solid ones become fluid for good.
+  bool repair_topology() {
+    bool is_changed = false;
+    for (const std::vector<std::uint32_t>& tets_there : broken_places()) {
+      std::uint32_t best = k_none;
+      for (const std::uint32_t t : tets_there)
+        if ((state_[t] == State::thin || state_[t] == State::between) && thickness_[t] <= 2.0 * options_.width &&
+            (best == k_none || thickness_[t] < thickness_[best]))
+          best = t;
+      if (best != k_none) {
+        state_[best] = State::solid;
+        is_changed = true;
+        continue;
+      }
+      for (const std::uint32_t t : tets_there) is_changed = reopen(t) || is_changed;
+    }
+    return is_changed;
+  }
+
+  bool reopen(std::uint32_t t) {
+    if (!is_solid(t)) return false;
+    state_[t] = State::left;
+    return true;
+  }
+
+  /// Tetrahedra around each edge with more than two faces, then around each vertex whose faces are no single fan.
+  std::vector<std::vector<std::uint32_t>> broken_places() {
+    std::vector<std::vector<std::uint32_t>> broken;
+    for (std::uint32_t v = 0; v < faces_at_.size(); ++v) {
+      const std::vector<std::uint32_t>& faces = faces_at_[v];
+      if (std::ranges::none_of(faces, [&](std::uint32_t f) { return faces_[f].solid != k_none; })) continue;
+      std::map<std::uint32_t, std::vector<std::uint32_t>> by_other;  // faces at the edge to this node, by index in `faces`
+      for (std::uint32_t i = 0; i < faces.size(); ++i)
+        for (const std::uint32_t node : faces_[faces[i]].nodes)
+          if (node != v) by_other[node].push_back(i);
+      DisjointSets fans(faces.size());
+      bool is_edge_broken = false;
+      for (const auto& [node, beside] : by_other) {
+        for (const std::uint32_t i : beside) fans.join(beside.front(), i);
+        if (beside.size() <= 2) continue;
+        is_edge_broken = true;
+        if (v > node) continue;  // found from the other end
+        std::vector<std::uint32_t> around;
+        for (const std::uint32_t t : at_node_[v])
+          if (std::ranges::find(fluid_.nodes[t], node) != fluid_.nodes[t].end()) around.push_back(t);
+        broken.push_back(std::move(around));
+      }
+      if (is_edge_broken) continue;
+      for (std::uint32_t i = 1; i < faces.size(); ++i)
+        if (fans.root(i) != 0) {
+          broken.push_back(at_node_[v]);
+          break;
+        }
+    }
+    return broken;
+  }
+
+  /// Fluid that solid tetrahedra would separate from the rest stays connected: the solid tetrahedra around it become fluid for good.
+  bool open_enclosed() {
+    const auto n = static_cast<std::uint32_t>(state_.size());
+    DisjointSets before(n), now(n);
+    for (std::uint32_t t = 0; t < n; ++t)
+      for (const std::uint32_t across : fluid_.neighbours[t]) {
+        if (across == k_none || across / 4 < t) continue;
+        before.join(t, across / 4);
+        if (!is_solid(t) && !is_solid(across / 4)) now.join(t, across / 4);
+      }
+    std::map<std::uint32_t, std::map<std::uint32_t, double>> volumes;  // of the parts of each region
+    for (std::uint32_t t = 0; t < n; ++t)
+      if (!is_solid(t)) volumes[before.root(t)][now.root(t)] += volume_of(t);
+    std::set<std::uint32_t> small;
+    for (const auto& [region, parts] : volumes) {
+      const auto largest = std::ranges::max_element(parts, {}, [](const auto& part) { return part.second; });
+      for (const auto& [part, volume] : parts)
+        if (part != largest->first) small.insert(part);
+    }
+    bool is_changed = false;
+    for (std::uint32_t t = 0; t < n; ++t) {
+      if (is_solid(t) || !small.contains(now.root(t))) continue;
+      for (const std::uint32_t across : fluid_.neighbours[t])
+        if (across != k_none) is_changed = reopen(across / 4) || is_changed;
+    }
+    return is_changed;
+  }
+
+  void find_left(CreviceReport& report) const {
+    for (std::uint32_t t = 0; t < state_.size(); ++t) {
+      if (state_[t] != State::left) continue;
+      if (report.left.size() < k_max_places) report.left.push_back(middle_of(t));
+      ++report.n_left;
+    }
+  }
+
+  /// Patch of the largest wall triangle of each solid tetrahedron, else that of the neighbour that has one first.
+  std::vector<PatchId> patches_of_solid() const {
+    std::vector<PatchId> patch(state_.size());
+    std::vector<std::uint32_t> reached;
+    for (std::uint32_t t = 0; t < state_.size(); ++t) {
+      if (!is_solid(t)) continue;
+      double largest = -1.0;
+      for (int i = 0; i < 4; ++i) {
+        if (fluid_.neighbours[t][static_cast<std::size_t>(i)] != k_none) continue;
+        const Face face = face_of(t, i);
+        const auto found = triangle_of_.find(sorted(face));
+        if (found == triangle_of_.end()) continue;
+        const double area = norm(cross(fluid_.points[face[1]] - fluid_.points[face[0]], fluid_.points[face[2]] - fluid_.points[face[0]]));
+        if (area <= largest) continue;
+        largest = area;
+        patch[t] = wall_.triangle_patch[TriangleId(found->second)];
+      }
+      if (patch[t].is_valid()) reached.push_back(t);
+    }
+    for (std::size_t i = 0; i < reached.size(); ++i)
+      for (const std::uint32_t across : fluid_.neighbours[reached[i]]) {
+        if (across == k_none || !is_solid(across / 4) || patch[across / 4].is_valid()) continue;
+        patch[across / 4] = patch[reached[i]];
+        reached.push_back(across / 4);
+      }
+    // Tetrahedra that reach no wall triangle through faces: the patch of a wall triangle at one of their nodes.
+    for (std::uint32_t t = 0; t < state_.size(); ++t) {
+      if (!is_solid(t) || patch[t].is_valid()) continue;
+      for (const TriangleId given : wall_.triangles.ids())
+        if (std::ranges::any_of(wall_.triangles[given], [&](VertexId v) { return std::ranges::find(fluid_.nodes[t], v.value()) != fluid_.nodes[t].end(); })) {
+          patch[t] = wall_.triangle_patch[given];
+          break;
+        }
+    }
+    return patch;
+  }
+
+  TriMesh new_wall(const std::vector<PatchId>& patch_of_solid) const {
+    std::vector<std::uint8_t> stays(wall_.n_triangles(), 1);
+    for (const auto& [nodes, given] : triangle_of_) stays[given] = 0;
+    for (const WallFace& face : faces_)
+      if (face.given != k_none) stays[face.given] = 1;
+    std::vector<std::pair<Face, PatchId>> triangles;
+    for (const TriangleId t : wall_.triangles.ids()) {
+      const TriangleVertices& v = wall_.triangles[t];
+      if (stays[t.index()]) triangles.push_back({{v[0].value(), v[1].value(), v[2].value()}, wall_.triangle_patch[t]});
+    }
+    for (const WallFace& face : faces_)
+      if (face.solid != k_none) triangles.push_back({face.nodes, patch_of_solid[face.solid]});
+    TriMesh made;
+    made.patches = wall_.patches;
+    std::vector<std::uint8_t> is_used(wall_.n_vertices(), 0);
+    for (const auto& [nodes, patch] : triangles)
+      for (const std::uint32_t node : nodes) is_used[node] = 1;
+    std::vector<VertexId> number(wall_.n_vertices());
+    for (const VertexId v : wall_.points.ids())
+      if (is_used[v.index()]) number[v.index()] = made.points.push_back(wall_.points[v]);
+    for (const auto& [nodes, patch] : triangles) {
+      made.triangles.push_back({number[nodes[0]], number[nodes[1]], number[nodes[2]]});
+      made.triangle_patch.push_back(patch);
+    }
+    return made;
+  }
+
+  void report_crevices(CreviceReport& report) const {
+    DisjointSets regions(state_.size() + wall_.n_vertices());
+    for (std::uint32_t t = 0; t < state_.size(); ++t)
+      if (is_solid(t))
+        for (const std::uint32_t node : fluid_.nodes[t]) regions.join(t, static_cast<std::uint32_t>(state_.size()) + node);
+    struct Region {
+      FilledCrevice crevice;
+      double largest = 0.0;
+    };
+    std::map<std::uint32_t, Region> by_root;
+    for (std::uint32_t t = 0; t < state_.size(); ++t) {
+      if (!is_solid(t)) continue;
+      auto& [crevice, largest] = by_root[regions.root(t)];
+      const double volume = volume_of(t);
+      if (volume > largest || crevice.n_tetrahedra == 0) {
+        largest = volume;
+        crevice.place = middle_of(t);
+      }
+      crevice.volume += volume;
+      crevice.width = std::max(crevice.width, thickness_[t]);
+      ++crevice.n_tetrahedra;
+      for (const Vec3& corner : corners_of(t)) crevice.box.add(corner);
+    }
+    for (const TriangleId t : wall_.triangles.ids())
+      for (const VertexId v : wall_.triangles[t]) {
+        const auto found = by_root.find(regions.root(static_cast<std::uint32_t>(state_.size()) + v.value()));
+        if (found != by_root.end()) found->second.crevice.patches.push_back(wall_.patches[wall_.triangle_patch[t]].name);
+      }
+    const TriangleTree tree(wall_, context_);
+    for (const WallFace& face : faces_) {
+      if (face.solid == k_none) continue;
+      double& distance = by_root[regions.root(face.solid)].crevice.distance;
+      const auto& [a, b, c] = face.nodes;
+      const Vec3 &p = fluid_.points[a], &q = fluid_.points[b], &r = fluid_.points[c];
+      for (const Vec3& sample : {face.middle, 0.5 * (p + q), 0.5 * (q + r), 0.5 * (r + p)}) distance = std::max(distance, tree.nearest(sample).distance);
+    }
+    for (auto& [root, region] : by_root) {
+      sort_unique(region.crevice.patches);
+      report.volume += region.crevice.volume;
+      report.distance = std::max(report.distance, region.crevice.distance);
+      report.crevices.push_back(std::move(region.crevice));
+    }
+    std::ranges::stable_sort(report.crevices, [](const FilledCrevice& a, const FilledCrevice& b) { return a.volume > b.volume; });
+  }
+
+  enum class State : std::uint8_t {
+    other,    ///< with a node that is not on a wall
+    between,  ///< all nodes on walls, thicker than the width
+    thin,     ///< all nodes on walls, and thin
+    solid,
+    left,  ///< has to stay fluid
+  };
+
+  const TriMesh& wall_;
+  const CreviceOptions& options_;
+  const RunContext& context_;
+  tets::TetMesh fluid_;
+  std::vector<std::uint8_t> is_wall_node_;
+  std::map<Face, std::uint32_t> triangle_of_;  ///< wall triangle of its sorted nodes
+  std::vector<State> state_;                   ///< state per tetrahedron
+  std::vector<double> thickness_;              ///< m, of each tetrahedron whose nodes are on walls
+  std::vector<std::vector<std::uint32_t>> at_node_;
+  std::vector<WallFace> faces_;  ///< the wall at present
+  std::vector<std::vector<std::uint32_t>> faces_at_;
+};
+
+}  // namespace
+
+CreviceResult fill_crevices(const TriMesh& wall, const CreviceOptions& options, const RunContext& context) {
+  if (!(options.width > 0.0))
+    throw Error({.code = ErrorCode::bad_argument,
+                 .attempted = "filling crevices",
+                 .problem = fmt::format("the width {} m is not positive", options.width),
+                 .hint = "give the largest distance between facing walls that is filled, for example width = 0.02"});
+  MeshCase fluid;
+  fluid.envelope.layers = 0;
+  fluid.needles.split_needles = 0.0;
+  fluid.tetrahedra.boundary_splits = "never";
+  fluid.size.size_growth = k_size_growth;
+  const VolumeMeshResult meshed = volume_mesh(wall, fluid, context.part("fluid", 0.0, k_meshed));
+  Filler filler(wall, meshed.mesh, options, context);
+  filler.fill();
+  return filler.result();
+}
+
+std::vector<std::string> to_lines(const CreviceReport& report, std::size_t n) {
+  std::vector<std::string> lines;
+  for (const FilledCrevice& crevice : report.crevices) {
+    if (lines.size() == n) break;
+    std::string names;
+    for (const std::string& name : crevice.patches) names += (names.empty() ? "" : ", ") + name;
+    lines.push_back(
+        fmt::format("({:.6g}, {:.6g}, {:.6g}): {} tetrahedra, {:.3g} m^3, up to {:.3g} m wide, new triangles at most {:.3g} m from the given wall, between {}",
+                    crevice.place.x, crevice.place.y, crevice.place.z, crevice.n_tetrahedra, crevice.volume, crevice.width, crevice.distance, names));
+  }
+  return lines;
+}
+
+}  // namespace sterna::volmesh
