@@ -1,7 +1,7 @@
 // Compares all envelope optimisers on real surfaces, from the same start and with the same upper heights (docs/method/optimisation.md). Prints a Markdown table
 // for each surface: objective and its gain, smallest scaled Jacobian and skew shares (13) of the macro-elements, area-weighted height, evaluations, time.
 // usage: compare_optimisers [options] surface...        with the settings of docs/measurements/surfaces.md: 35 layers, first height 1e-6 body lengths
-//   --evaluations=300   limit for NLopt (our own methods stop by themselves, at 30 sweeps or evaluations)
+//   --evaluations=300   limit for NLopt (the descent stops by itself, at 30 sweeps)
 //   --solvers=a,b,...   names from solvers() below; default all
 //   --slack=      slack of NLopt's constraint (NloptSettings::slack)
 //   --threads=2  --layers=35  --history (f by evaluation, one line per solver)
@@ -84,9 +84,8 @@ Answer run_nlopt(NloptMethod method, const Task& task) {
   return answer;
 }
 
-Answer run_own(OptimiseMethod method, const ObjectiveWeights& weights, const Task& task) {
+Answer run_descent(const ObjectiveWeights& weights, const Task& task) {
   OptimiseSettings settings;
-  settings.method = method;
   settings.weights = weights;
   OptimiseReport report;
   Answer answer;
@@ -104,15 +103,14 @@ struct Solver {
   std::function<Answer(const Task&)> run;
 };
 
-/// The list of solvers; add a line here for a new one. Our own methods minimise f_1 + f_2 alone (height 1, top 0), as NLopt does; "descent_default" uses the
+/// The list of solvers; add a line here for a new one. "descent" minimises f_1 + f_2 alone (height 1, top 0), as NLopt does; "descent_default" uses the
 /// weights of the pipeline.
 std::vector<Solver> solvers() {
   return {
       {"mma", [](const Task& task) { return run_nlopt(NloptMethod::mma, task); }},
       {"ccsaq", [](const Task& task) { return run_nlopt(NloptMethod::ccsaq, task); }},
-      {"descent", [](const Task& task) { return run_own(OptimiseMethod::descent, {.height = 1.0, .top = 0.0}, task); }},
-      {"lbfgs", [](const Task& task) { return run_own(OptimiseMethod::lbfgs, {.height = 1.0, .top = 0.0}, task); }},
-      {"descent_default", [](const Task& task) { return run_own(OptimiseMethod::descent, OptimiseSettings{}.weights, task); }},
+      {"descent", [](const Task& task) { return run_descent({.height = 1.0, .top = 0.0}, task); }},
+      {"descent_default", [](const Task& task) { return run_descent(OptimiseSettings{}.weights, task); }},
   };
 }
 

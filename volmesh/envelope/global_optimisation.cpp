@@ -36,9 +36,8 @@ void log_result(const OptimiseReport& report, std::string_view optimiser, const 
 Envelope optimum(const LayerBase& base, const EnvelopeOptions& options, const Envelope& start, const RunContext& context) {
   const Column<VertexId, double> h_u = upper_heights(base, start);
   const double h_l = scale_of(base, options).least_height();
-  if (options.optimiser == "descent" || options.optimiser == "lbfgs") {
+  if (options.optimiser == "descent") {
     OptimiseSettings settings;
-    settings.method = options.optimiser == "descent" ? OptimiseMethod::descent : OptimiseMethod::lbfgs;
     settings.max_evaluations = options.optimiser_evaluations;
     settings.weights = {.height = options.height_weight, .top = options.top_weight, .membrane = options.membrane_weight, .barrier = options.barrier_weight};
     settings.height_floor = start.target;
@@ -52,7 +51,7 @@ Envelope optimum(const LayerBase& base, const EnvelopeOptions& options, const En
     throw Error({.code = ErrorCode::bad_argument,
                  .attempted = "optimising the envelope",
                  .problem = "unknown optimiser \"" + options.optimiser + "\"",
-                 .hint = "use one of none, descent, lbfgs, mma, ccsaq"});
+                 .hint = "use one of none, descent, mma, ccsaq"});
   NloptSettings settings;
   settings.method = options.optimiser == "mma" ? NloptMethod::mma : NloptMethod::ccsaq;
   settings.max_evaluations = options.optimiser_evaluations;

@@ -70,13 +70,6 @@ void for_each_active_term(const LayerElement& el, const F& f) {
 Vec3 to_edge_0(const LayerElement& el, const Seeds& s) { return cross(el.top[1], s.to_top) + 0.5 * cross(el.e[1], s.to_middle) + s.to_edge[0]; }
 Vec3 to_edge_1(const LayerElement& el, const Seeds& s) { return cross(s.to_top, el.top[0]) + 0.5 * cross(s.to_middle, el.e[0]) + s.to_edge[1]; }
 
-void add_scaled(Seeds& sum, double w, const Seeds& s) {
-  sum.to_top += w * s.to_top;
-  sum.to_middle += w * s.to_middle;
-  for (std::size_t k = 0; k < 3; ++k) sum.to_growth[k] += w * s.to_growth[k];
-  for (std::size_t k = 0; k < 2; ++k) sum.to_edge[k] += w * s.to_edge[k];
-}
-
 /// Adds the seeds of f_3 = sum over k of 1 - top_cosine[k].
 void add_top_seeds(const LayerElement& el, double weight, Seeds& sum) {
   const Vec3 unit_top = el.n_top / el.top_area2;
@@ -84,17 +77,6 @@ void add_top_seeds(const LayerElement& el, double weight, Seeds& sum) {
     sum.to_top -= (weight / el.top_area2) * (el.unit[k] - el.top_cosine[k] * unit_top);
     sum.to_growth[k] -= (weight / el.length[k]) * (unit_top - el.top_cosine[k] * el.unit[k]);
   }
-}
-
-/// Adds the seeds of energy(); returns false if no term is active.
-bool energy_seeds(const LayerElement& el, const ElementWeights& weights, Seeds& sum) {
-  bool is_active = weights.top > 0.0;
-  if (is_active) add_top_seeds(el, weights.top, sum);
-  for_each_active_term(el, [&](double x, double onset, const Seeds& s) {
-    is_active = true;
-    add_scaled(sum, weights.barrier * barrier(x, onset).slope, s);
-  });
-  return is_active;
 }
 
 }  // namespace
@@ -148,16 +130,6 @@ double LayerElement::energy(const ElementWeights& weights) const {
     if (above_middle < k_middle_onset) sum += barrier_value(above_middle, k_middle_onset);
   }
   return weights.barrier * sum + weights.top * (3.0 - top_cosine[0] - top_cosine[1] - top_cosine[2]);
-}
-
-bool LayerElement::differentiate(const ElementWeights& weights, Vec3* gradient) const {
-  Seeds sum;
-  if (!energy_seeds(*this, weights, sum)) return false;
-  const Vec3 d0 = to_edge_0(*this, sum), d1 = to_edge_1(*this, sum);
-  gradient[0] = sum.to_growth[0] - d0 - d1;
-  gradient[1] = sum.to_growth[1] + d0;
-  gradient[2] = sum.to_growth[2] + d1;
-  return true;
 }
 
 void LayerElement::differentiate_corner_0(const ElementWeights& weights, Vec3& gradient, SymmetricBlock& hessian) const {

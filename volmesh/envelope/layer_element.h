@@ -7,7 +7,7 @@
 
 #include "geom/base/vec3.h"
 #include "volmesh/envelope/corner_shape.h"
-#include "volmesh/envelope/lbfgs.h"
+#include "volmesh/envelope/symmetric_block.h"
 
 namespace sterna::volmesh {
 
@@ -90,9 +90,6 @@ struct LayerElement {
   /// Adds gradient and positive semi-definite Hessian of energy() with respect to the growth edge of corner 0.
   /// \pre as energy().
   void differentiate_corner_0(const ElementWeights& weights, Vec3& gradient, SymmetricBlock& hessian) const;
-  /// Computes the gradient of energy() with respect to all three growth edges; returns false if it is zero.
-  /// \pre as energy().
-  bool differentiate(const ElementWeights& weights, Vec3* gradient) const;
 };
 
 }  // namespace sterna::volmesh

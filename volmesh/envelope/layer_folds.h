@@ -7,7 +7,6 @@
 
 #include "volmesh/envelope/edge_fold.h"
 #include "volmesh/envelope/envelope.h"
-#include "volmesh/envelope/lbfgs.h"
 
 namespace sterna::volmesh {
 

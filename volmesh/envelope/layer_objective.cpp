@@ -12,24 +12,7 @@ namespace {
 
 /// Bounds that are closer than this ratio fix the vertex (docs/method/optimisation.md, "Bounds").
 constexpr double k_min_bound_ratio = 1.05;
-constexpr double k_far = 0.2;            ///< slack above which hold_back() allows an element any step
 constexpr double k_wide_reserve = 0.01;  ///< least slack above the wide margins at the start for an element to get these margins
-constexpr int k_max_halvings = 12;       ///< halvings of a vertex's step before the vertex stays
-constexpr double k_on_bound = 1e-12;     ///< share of h_u; clamp() meets bounds to rounding
-/// Least cosine between mean facet normal and vertex normal for the mean normal to be a growth direction.
-constexpr double k_min_rise = 0.5;
-
-/// Returns the component of d within the constraint, not normalised.
-Vec3 within(const VertexConstraint& constraint, const Vec3& d) {
-  switch (constraint.freedom) {
-    case Freedom::free: return d;
-    case Freedom::plane:
-    case Freedom::surface: return d - dot(d, constraint.axis) * constraint.axis;
-    case Freedom::line: return dot(d, constraint.axis) * constraint.axis;
-    case Freedom::fixed: return {};
-  }
-  return d;
-}
 
 /// Returns the share of a vertex of the full model that is in this model: half or a quarter; growth lines there count only their own triangles.
 double mirror_share(const LayerBase& base, VertexId v) {
@@ -57,8 +40,6 @@ LayerObjective::LayerObjective(const LayerBase& base, const Envelope& start, con
   n_incident_.assign(n, 0.0);
   mirror_share_.assign(n, 1.0);
   is_element_.assign(base.wall.n_triangles(), 0);
-  corner_gradient_.resize(3 * base.wall.n_triangles());
-  has_gradient_.assign(base.wall.n_triangles(), 0);
   has_wide_margins_.assign(base.wall.n_triangles(), 1);
   const auto stands = [&](TriangleId t) {
     const TriangleVertices& v = base.wall.triangles[t];
@@ -105,7 +86,6 @@ LayerObjective::LayerObjective(const LayerBase& base, const Envelope& start, con
     }
     folds_ = LayerFolds(base, start, is_moving_, context);
     for (const std::uint32_t v : folds_.drop_infeasible(base, start)) is_moving_[v] = 0;
-    fold_gradient_.resize(4 * folds_.size());
   }
   for (std::size_t i = 0; i < n; ++i) {
     n_moving_ += is_moving_[i];
@@ -140,17 +120,6 @@ void LayerObjective::clamp(std::size_t v, Vec3& y) const {
   const double h = dot(y, normal_[v]);
   const double inside = std::clamp(h, h_l_share_[v], 1.0);
   if (inside != h) y += (inside - h) * normal_[v];
-}
-
-Vec3Field LayerObjective::separable_optimum(const Vec3Field& y, const RunContext& context) const {
-  Vec3Field best = y;
-  parallel_for(context, y.size(), [&](std::size_t i) {
-    if (!is_moving_[i]) return;
-    const double rise = dot(normal_sum_[i], normal_[i]);
-    const Vec3 mean = within(base_.constraint[VertexId(i)], normal_sum_[i]);
-    if (rise >= k_min_rise * norm(normal_sum_[i])) best[i] = mean / dot(mean, normal_[i]);
-  });
-  return best;
 }
 
 bool LayerObjective::load(std::size_t t, const Vec3Field& y, LayerElement& e) const {
@@ -191,27 +160,12 @@ double LayerObjective::fold_energy(const Fold& shape, std::size_t fold) const {
   return slack > 0.0 ? barrier_value(slack, 1.0) : std::numeric_limits<double>::infinity();
 }
 
-/// Returns the sum of the folds' barriers; stores their gradients in fold_gradient_.
-double LayerObjective::add_folds(const Vec3Field& y, bool with_gradient, const RunContext& context) {
-  const double weight = element_weights().barrier;
+double LayerObjective::sum_of_folds(const Vec3Field& y, const RunContext& context) const {
   return parallel_reduce(
       context, folds_.size(), 0.0,
       [&](std::size_t begin, std::size_t end) {
         double sum = 0.0;
-        for (std::size_t i = begin; i < end; ++i) {
-          const FoldPoints points = fold_points(i, y);
-          const Fold shape = fold_of(points);
-          const double energy = fold_energy(shape, i);
-          sum += energy;
-          if (!with_gradient) continue;
-          std::array<Vec3, 4> d{};
-          if (energy > 0.0) {
-            d = fold_gradient(points, shape);
-            const double slope = weight * barrier(fold_slack(shape, folds_.limit(i)), 1.0).slope / folds_.limit(i).range;
-            for (Vec3& g : d) g *= slope;
-          }
-          std::copy(d.begin(), d.end(), fold_gradient_.begin() + static_cast<std::ptrdiff_t>(4 * i));
-        }
+        for (std::size_t i = begin; i < end; ++i) sum += fold_energy(fold_of(fold_points(i, y)), i);
         return sum;
       },
       [](double a, double b) { return a + b; });
@@ -233,7 +187,7 @@ LayerObjective::Membrane LayerObjective::membrane(std::size_t v, double height, 
   return sum;
 }
 
-ObjectiveValue LayerObjective::evaluate(const Vec3Field& y, Vec3Field* gradient, const RunContext& context) {
+ObjectiveValue LayerObjective::evaluate(const Vec3Field& y, const RunContext& context) const {
   const double element_weight = corner_weight();
   const auto add = [](ObjectiveValue a, const ObjectiveValue& b) {
     a.f1 += b.f1;
@@ -250,45 +204,27 @@ ObjectiveValue LayerObjective::evaluate(const Vec3Field& y, Vec3Field* gradient,
       [&](std::size_t begin, std::size_t end) {
         ObjectiveValue sum;
         for (std::size_t t = begin; t < end; ++t) {
-          has_gradient_[t] = 0;
           LayerElement e;
           if (!load(t, y, e)) continue;
           e.measure();
           sum.f3 += 3.0 - e.top_cosine[0] - e.top_cosine[1] - e.top_cosine[2];
           sum.barrier += e.energy({0.0, 1.0});
-          has_gradient_[t] = gradient && e.differentiate(weights, corner_gradient_.data() + 3 * t);
         }
         return sum;
       },
       add);
-  value.barrier += add_folds(y, gradient != nullptr, context);
+  value.barrier += sum_of_folds(y, context);
   value.f3 *= element_weight;
   value.barrier *= element_weight;
-  if (gradient) gradient->resize(size());
   const ObjectiveValue own = parallel_reduce(
       context, size(), ObjectiveValue{},
       [&](std::size_t begin, std::size_t end) {
         ObjectiveValue sum;
         for (std::size_t i = begin; i < end; ++i) {
-          if (!is_moving_[i]) {
-            if (gradient) (*gradient)[i] = {};
-            continue;
-          }
-          const double length = norm(y[i]);
-          const Vec3 u = y[i] / length;
-          const double seen = dot(normal_sum_[i], u);
-          sum.f1 += n_incident_[i] - seen;
+          if (!is_moving_[i]) continue;
+          sum.f1 += n_incident_[i] - dot(normal_sum_[i], y[i] / norm(y[i]));
           sum.f2 += mirror_share_[i] * (1.0 - dot(y[i], normal_[i]));
-          const Membrane even = membrane(i, normal_height(i, y[i]), y);
-          sum.f4 += even.share;
-          if (!gradient) continue;
-          Vec3 d = (-element_weight / length) * (normal_sum_[i] - seen * u) + (h_u_[i] * even.slope - height_weight(i)) * normal_[i];
-          for (const HalfedgeId h : base_.topology.outgoing(VertexId(i)))
-            if (has_gradient_[h.index() / 3]) d += h_u_[i] * corner_gradient_[h.index()];
-          for (const std::uint32_t fold : folds_.at(i))
-            for (std::size_t k = 0; k < 4; ++k)
-              if (folds_.corners(fold)[k] == i) d += h_u_[i] * fold_gradient_[4 * fold + k];
-          (*gradient)[i] = within(base_.constraint[VertexId(i)], d);
+          sum.f4 += membrane(i, normal_height(i, y[i]), y).share;
         }
         return sum;
       },
@@ -298,63 +234,6 @@ ObjectiveValue LayerObjective::evaluate(const Vec3Field& y, Vec3Field* gradient,
   value.f4 = own.f4;
   value.total = value.f1 + weights_.height * value.f2 + weights_.top * value.f3 + value.f4 + weights_.barrier * value.barrier;
   return value;
-}
-
-void LayerObjective::free_part(const Vec3Field& y, Vec3Field& gradient, const RunContext& context) const {
-  parallel_for(context, size(), [&](std::size_t i) {
-    if (!is_moving_[i]) return;
-    const double h = dot(y[i], normal_[i]), slope = dot(gradient[i], normal_[i]);
-    if ((h >= 1.0 - k_on_bound && slope < 0.0) || (h <= h_l_share_[i] + k_on_bound && slope > 0.0)) gradient[i] -= slope * normal_[i];
-  });
-}
-
-void LayerObjective::slacks(const Vec3Field& y, std::vector<float>& slack, const RunContext& context) const {
-  const std::size_t n = is_element_.size();
-  slack.resize(n + folds_.size());
-  parallel_for(context, slack.size(), [&](std::size_t t) {
-    LayerElement e;
-    slack[t] = static_cast<float>(t >= n ? fold_slack(fold_of(fold_points(t - n, y)), folds_.limit(t - n)) : load(t, y, e) ? e.measure() : 1.0);
-  });
-}
-
-std::size_t LayerObjective::hold_back(const Vec3Field& from, const std::vector<float>& slack_from, double keep, Vec3Field& to,
-                                      const RunContext& context) const {
-  std::vector<std::uint8_t> dirty(size(), 1), halvings(size(), 0);
-  std::size_t n_held = 0;
-  const std::size_t n_elements = is_element_.size();  // elements first, then folds
-  const auto vertices_of = [&](std::size_t t) -> LayerFolds::Corners {
-    if (t >= n_elements) return folds_.corners(t - n_elements);
-    const TriangleVertices& v = base_.wall.triangles[TriangleId(t)];
-    return {v[0].value(), v[1].value(), v[2].value(), v[2].value()};
-  };
-  while (true) {
-    const auto is_bad = [&](std::size_t t) {
-      const double least = std::min(k_far, keep * static_cast<double>(slack_from[t]));
-      if (t >= n_elements) return fold_slack(fold_of(fold_points(t - n_elements, to)), folds_.limit(t - n_elements)) < least;
-      LayerElement e;
-      return load(t, to, e) && e.measure(least_quality_) < least;
-    };
-    const std::vector<std::uint32_t> bad =
-        parallel_collect<std::uint32_t>(context, n_elements + folds_.size(), [&](std::size_t begin, std::size_t end, std::vector<std::uint32_t>& list) {
-          for (std::size_t t = begin; t < end; ++t) {
-            const auto vertices = vertices_of(t);
-            if (std::any_of(vertices.begin(), vertices.end(), [&](std::uint32_t v) { return dirty[v] != 0; }) && is_bad(t))
-              list.push_back(static_cast<std::uint32_t>(t));
-          }
-        });
-    if (bad.empty()) return n_held;
-    dirty.assign(size(), 0);
-    for (const std::uint32_t t : bad)
-      for (const std::uint32_t v : vertices_of(t)) dirty[v] = 1;
-    bool has_moved = false;
-    for (std::size_t i = 0; i < size(); ++i) {
-      if (!dirty[i] || to[i] == from[i]) continue;
-      n_held += halvings[i] == 0;
-      has_moved = true;
-      to[i] = ++halvings[i] > k_max_halvings ? from[i] : from[i] + 0.5 * (to[i] - from[i]);
-    }
-    if (!has_moved) return n_held;
-  }
 }
 
 }  // namespace sterna::volmesh

@@ -9,9 +9,10 @@
 #include "volmesh/envelope/envelope.h"
 #include "volmesh/envelope/layer_element.h"
 #include "volmesh/envelope/layer_folds.h"
-#include "volmesh/envelope/lbfgs.h"
 
 namespace sterna::volmesh {
+
+using Vec3Field = std::vector<Vec3>;
 
 struct ObjectiveWeights {
   double height = 1.0;    ///< weight of f_2 relative to f_1
@@ -48,26 +49,13 @@ class LayerObjective {
   Vec3Field unknowns(const Envelope& envelope) const;
   /// Writes directions and heights of the moving vertices to the envelope.
   void store(const Vec3Field& y, Envelope& envelope) const;
-  /// Returns the minimum of f_1 + f_2 without macro-elements: computed separately for every vertex.
-  Vec3Field separable_optimum(const Vec3Field& y, const RunContext& context) const;
-
-  /// Returns the objective. gradient: with respect to y, within the constraints; null: value only.
+  /// Returns the objective.
   /// \pre every element feasible, unless the weights of f_3 and barrier are zero: then elements are not evaluated.
-  ObjectiveValue evaluate(const Vec3Field& y, Vec3Field* gradient, const RunContext& context);
+  ObjectiveValue evaluate(const Vec3Field& y, const RunContext& context) const;
   /// Makes one pass over the vertices of `active`, colour by colour: each vertex moves to the minimum of its local quadratic model, as far as the objective
   /// falls and all its elements stay feasible. Afterwards `active` marks the vertices of the next pass. The total falls monotonically. Returns the number of
   /// visits.
   std::size_t descend(Vec3Field& y, std::vector<std::uint8_t>& active, double tolerance, const RunContext& context);
-  /// Removes from the gradient the components that point out of the bounds on which y lies.
-  void free_part(const Vec3Field& y, Vec3Field& gradient, const RunContext& context) const;
-  /// Clamps y to the bounds.
-  void clamp(std::size_t v, Vec3& y) const;
-
-  /// Computes the distance of every element, then of every fold from infeasibility (0), in the units of the barrier's terms.
-  void slacks(const Vec3Field& y, std::vector<float>& slack, const RunContext& context) const;
-  /// Moves vertices of `to` back towards `from`, until every element keeps at least `keep` of its slack in `from` (or is far from the barrier). Returns the
-  /// number of vertices moved back.
-  std::size_t hold_back(const Vec3Field& from, const std::vector<float>& slack_from, double keep, Vec3Field& to, const RunContext& context) const;
 
  private:
   const ElementMargins* margins_of(std::size_t t) const { return has_wide_margins_[t] ? &k_wide_margins : &k_least_margins; }
@@ -75,7 +63,10 @@ class LayerObjective {
   FoldPoints fold_points(std::size_t fold, const Vec3Field& y) const;
   /// Returns the barrier of the fold; infinite where the fold is too sharp.
   double fold_energy(const Fold& shape, std::size_t fold) const;
-  double add_folds(const Vec3Field& y, bool with_gradient, const RunContext& context);
+  /// Returns the sum of the barriers of all folds.
+  double sum_of_folds(const Vec3Field& y, const RunContext& context) const;
+  /// Clamps y to the bounds.
+  void clamp(std::size_t v, Vec3& y) const;
   struct VisitScratch;
   void colour_vertices();
   /// Makes the step of one vertex; returns the length of the step, in units of h_u.
@@ -112,9 +103,6 @@ class LayerObjective {
   std::vector<std::uint8_t> is_element_;        ///< no collapsed corner, some corner moves
   std::vector<std::uint8_t> has_wide_margins_;  ///< per triangle: k_wide_margins apply
   LayerFolds folds_;
-  std::vector<Vec3> fold_gradient_;    ///< 4 per fold, scratch of evaluate()
-  std::vector<Vec3> corner_gradient_;  ///< 3 per element, scratch of evaluate()
-  std::vector<std::uint8_t> has_gradient_;
   std::vector<std::vector<std::uint32_t>> colours_;  ///< moving vertices that share no element with others of their colour
 };
 

@@ -10,91 +10,25 @@
 namespace sterna::volmesh {
 namespace {
 
-constexpr std::size_t k_memory = 7;          ///< pairs of the L-BFGS approximation
-constexpr double k_keep = 0.2;               ///< share of its slack that an element near the barrier keeps in one step of L-BFGS
-constexpr double k_max_lbfgs_step = 0.5;     ///< largest displacement of a vertex in one step of L-BFGS, in units of h_u
-constexpr double k_first_step_share = 0.25;  ///< share of the steepest descent step that would eliminate f_1 on a plane
-constexpr double k_armijo_share = 1e-4;      ///< Armijo condition: share of the predicted decrease
-constexpr int k_max_backtracks = 8;
-constexpr int k_patience = 4;    ///< iterations of L-BFGS over which the gain must exceed the tolerance
 constexpr double k_rest = 2e-3;  ///< in units of h_u: a vertex that moves less is not visited until a neighbour moves more
 
-bool is_converged(const std::vector<ObjectiveValue>& history, std::size_t patience, double tolerance) {
-  if (history.size() < patience + 2) return false;
+bool is_converged(const std::vector<ObjectiveValue>& history, double tolerance) {
+  if (history.size() < 3) return false;
   const double now = history.back().total;
-  return history[history.size() - 1 - patience].total - now < tolerance * (history.front().total - now);
+  return history[history.size() - 2].total - now < tolerance * (history.front().total - now);
 }
 
 void run_descent(LayerObjective& objective, const OptimiseSettings& settings, Vec3Field& y, OptimiseReport& report, const RunContext& context) {
   std::vector<std::uint8_t> active(objective.size());
   for (std::size_t i = 0; i < active.size(); ++i) active[i] = objective.is_moving(i);
-  report.history.push_back(objective.evaluate(y, nullptr, context));
+  report.history.push_back(objective.evaluate(y, context));
   report.stopped = "evaluations";
   while (report.n_evaluations < settings.max_evaluations) {
     const std::size_t n_visits = objective.descend(y, active, k_rest, context);
-    report.history.push_back(objective.evaluate(y, nullptr, context));
+    report.history.push_back(objective.evaluate(y, context));
     ++report.n_evaluations;
     context.progress(static_cast<double>(report.n_evaluations) / settings.max_evaluations);
-    if (n_visits == 0 || is_converged(report.history, 1, settings.tolerance)) {
-      report.stopped = "converged";
-      return;
-    }
-  }
-}
-
-void run_lbfgs(LayerObjective& objective, const OptimiseSettings& settings, Vec3Field& y, OptimiseReport& report, const RunContext& context) {
-  const std::size_t n = objective.size();
-  Vec3Field trial(n), gradient(n), trial_gradient(n), free_gradient(n), direction(n);
-  std::vector<float> slack;
-  LbfgsMemory memory(n, k_memory);
-  ObjectiveValue value = objective.evaluate(y, &gradient, context);
-  report.history.push_back(value);
-  ++report.n_evaluations;
-  report.stopped = "evaluations";
-  const auto accept = [&](const ObjectiveValue& next) {
-    y.swap(trial);
-    gradient.swap(trial_gradient);
-    value = next;
-    report.history.push_back(value);
-  };
-  // The separable optimum first: away from the barriers it is the solution.
-  objective.slacks(y, slack, context);
-  trial = objective.separable_optimum(y, context);
-  objective.hold_back(y, slack, k_keep, trial, context);
-  const ObjectiveValue jump = objective.evaluate(trial, &trial_gradient, context);
-  ++report.n_evaluations;
-  if (jump.total < value.total) accept(jump);
-  while (report.n_evaluations < settings.max_evaluations) {
-    context.progress(static_cast<double>(report.n_evaluations) / settings.max_evaluations);
-    free_gradient = gradient;
-    objective.free_part(y, free_gradient, context);
-    memory.descend(free_gradient, k_first_step_share * static_cast<double>(objective.n_moving()), direction, context);
-    objective.slacks(y, slack, context);
-    double shrink = 1.0;
-    bool is_accepted = false;
-    for (int back = 0; back < k_max_backtracks && report.n_evaluations < settings.max_evaluations && !is_accepted; ++back, shrink *= 0.5) {
-      parallel_for(context, n, [&](std::size_t i) {
-        trial[i] = y[i];
-        if (!objective.is_moving(i)) return;
-        const double length = shrink * norm(direction[i]);
-        trial[i] += (length > k_max_lbfgs_step ? shrink * k_max_lbfgs_step / length : shrink) * direction[i];
-        objective.clamp(i, trial[i]);
-      });
-      objective.hold_back(y, slack, k_keep, trial, context);
-      const ObjectiveValue next = objective.evaluate(trial, &trial_gradient, context);
-      ++report.n_evaluations;
-      const double predicted = field_dot(gradient, trial, context) - field_dot(gradient, y, context);
-      if (!(next.total < value.total + k_armijo_share * std::min(predicted, 0.0))) continue;
-      memory.push(y, trial, gradient, trial_gradient, context);
-      accept(next);
-      is_accepted = true;
-    }
-    if (!is_accepted && memory.empty()) {
-      report.stopped = "no further decrease";
-      return;
-    }
-    if (!is_accepted) memory.clear();
-    if (is_converged(report.history, k_patience, settings.tolerance)) {
+    if (n_visits == 0 || is_converged(report.history, settings.tolerance)) {
       report.stopped = "converged";
       return;
     }
@@ -157,8 +91,7 @@ Envelope optimise(const LayerBase& base, const Envelope& start, const Column<Ver
   report = {};
   report.n_moving = objective.n_moving();
   Vec3Field y = objective.unknowns(start);
-  if (settings.method == OptimiseMethod::descent) run_descent(objective, settings, y, report, context);
-  else run_lbfgs(objective, settings, y, report, context);
+  run_descent(objective, settings, y, report, context);
   Envelope result = start;
   objective.store(y, result);
   report.n_taken_back = take_back(base, start, least_quality, result, context);

@@ -1,4 +1,4 @@
-// Stage 6 by sterna's own methods (docs/method/optimisation.md, "Own objective"): feasible start, barrier on every macro-element, no step that leaves
+// Stage 6 by block coordinate descent (docs/method/optimisation.md, "Own objective"): feasible start, barrier on every macro-element, no step that leaves
 // validity.
 #pragma once
 
@@ -10,14 +10,8 @@
 
 namespace sterna::volmesh {
 
-enum class OptimiseMethod {
-  descent,  ///< block coordinate descent with local Newton models, colour by colour
-  lbfgs,    ///< matrix-free L-BFGS over all unknowns at once
-};
-
 struct OptimiseSettings {
-  OptimiseMethod method = OptimiseMethod::descent;
-  int max_evaluations = 30;  ///< evaluations of the objective; a sweep of the descent counts as one
+  int max_evaluations = 30;  ///< sweeps over all vertices, each followed by one evaluation of the objective
   /// Lower limits, m, for the lengths of growth vectors that are longer at the start; empty: no limit.
   Column<VertexId, double> height_floor = {};
   double tolerance = 1e-3;  ///< the run ends if an iteration gains less than this share of the total gain so far
