@@ -13,6 +13,7 @@ import shutil
 ROOT = pathlib.Path(__file__).resolve().parent.parent
 WINDOW, BAND = 100, 0.005  # iterations, share: a run has converged when its forces stay within it
 REFERENCE = 0.1            # reference area over the square of the length
+CREVICE = 0.003            # width over the length, up to which crevices are filled where a trailing edge overhangs a body: real aircraft have a fillet there
 
 
 def script_before(name: str, end: str) -> str:
@@ -34,10 +35,15 @@ def surface_mesh(file: pathlib.Path, options: str, refinement: float) -> str:
 
 
 class Aircraft:
-    """`make` writes the script of the wall from the folder of the data; `file` in that folder, or none; `fast`: at Mach 0.5 as well; `sst`: with k-omega SST as well; `has_engines`: with patches nozzle and fan_face."""
+    """`make` writes the script of the wall from the folder of the data; `file` in that folder, or none; `has_crevices`: filled; `fast`: at Mach 0.5 as well; `sst`: with k-omega SST as well; `has_engines`: with patches nozzle and fan_face."""
 
-    def __init__(self, name: str, make, file: str = "", fast: bool = False, sst: bool = False, has_engines: bool = False):
-        self.name, self.make, self.file, self.fast, self.sst, self.has_engines = name, make, file, fast, sst, has_engines
+    def __init__(self, name: str, make, file: str = "", fast: bool = False, sst: bool = False, has_engines: bool = False,
+                 has_crevices: bool = False):
+        self.name, self.make, self.file, self.fast, self.sst, self.has_engines, self.has_crevices = name, make, file, fast, sst, has_engines, has_crevices
+
+    def script(self, data: pathlib.Path) -> str:
+        """The script of the wall, with crevices filled."""
+        return self.make(data) + (f"wall = fill_crevices{{ wall, width = {CREVICE}*wall.length }}\n" if self.has_crevices else "")
 
     def is_there(self, data: pathlib.Path) -> bool:
         return not self.file or (data / self.file).exists()
@@ -56,10 +62,10 @@ AIRCRAFT = [
     Aircraft("airliner", lambda _: script_before("03_airliner.lua", "model:write") + model_mesh("model", 0.1), fast=True, sst=True, has_engines=True),
     Aircraft("light", lambda _: script_before("07_aircraft_to_mesh.lua", "-- Without numbers") + model_mesh("model", 0.3), fast=True, sst=True),
     of_file("bjet", "read_smx", "smx/bjet.smx", 0.28, fast=True),
-    of_file("widebody", "read_smx", "smx/widebody.smx", 0.19),
-    of_file("delta", "read_smx", "smx/delta.smx", 0.3, fast=True),
-    of_file("D150", "read_cpacs", "cpacs/CPACS_30_D150.xml", 0.33, fast=True),
-    of_file("box_wing", "read_cpacs", "cpacs/boxWing.xml", 0.3),
+    of_file("widebody", "read_smx", "smx/widebody.smx", 0.19, has_crevices=True),
+    of_file("delta", "read_smx", "smx/delta.smx", 0.3, fast=True, has_crevices=True),
+    of_file("D150", "read_cpacs", "cpacs/CPACS_30_D150.xml", 0.33, fast=True, has_crevices=True),
+    of_file("box_wing", "read_cpacs", "cpacs/boxWing.xml", 0.3, has_crevices=True),
     of_surface("geom2", "vspgeom_geom2_geom2.stl", "split_angle = 60*deg", 0.6, sst=True),
     of_surface("wing_body", "wing_body_79k.stl", "split_angle = 60*deg", 0.6),
     of_surface("dlr_f6", "dlr_f6_184k.stl", "unit = mm, split_angle = 60*deg", 0.26),
@@ -118,7 +124,7 @@ def mesh_of(tools, arguments, aircraft: Aircraft, folder: pathlib.Path) -> dict:
     shutil.rmtree(folder, ignore_errors=True)
     folder.mkdir(parents=True)
     shutil.copytree(ROOT / "scripts" / "data", folder / "data")
-    (folder / "mesh.lua").write_text(aircraft.make(arguments.data.resolve()) + MESH)
+    (folder / "mesh.lua").write_text(aircraft.script(arguments.data.resolve()) + MESH)
     seconds = tools.run([arguments.sterna, "run", "mesh.lua"], folder, "log.sterna")
     log = (folder / "log.sterna").read_text()
     found = re.search(r"^counts\s+(\d+)\s+(\S+)$", log, re.M)

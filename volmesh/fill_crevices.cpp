@@ -187,9 +187,14 @@ class Filler {
     }
   }
 
-  /// Two faces that face each other across the fluid.
+  /// Returns true if two faces face each other across the fluid. Behind a convex edge all corners of each face are behind the other one.
   bool are_facing(const WallFace& a, const WallFace& b) const {
-    return dot(a.normal, b.normal) < -std::cos(options_.angle) && dot(a.normal, b.middle - a.middle) > 0.0 && dot(b.normal, a.middle - b.middle) > 0.0;
+    const auto is_before = [&](const WallFace& face, const WallFace& other) {
+      return std::ranges::any_of(other.nodes, [&](std::uint32_t node) {
+        return std::ranges::find(face.nodes, node) == face.nodes.end() && dot(face.normal, fluid_.points[node] - face.middle) > 0.0;
+      });
+    };
+    return dot(a.normal, b.normal) < -std::cos(options_.angle) && is_before(a, b) && is_before(b, a);
   }
 
   bool is_between_facing(std::uint32_t t) const {

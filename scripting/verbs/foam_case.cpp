@@ -116,8 +116,8 @@ void warn_of_collapsed_lines(const HybridMesh& mesh, const RunContext& context) 
   const Point& place = mesh.points[NodeId(mesh.layers.first_node[first])];
   context.warn(
       fmt::format("OpenFOAM: the layer has no height at {} of the walls, the first at ({:.6g}, {:.6g}, {:.6g}): runs can diverge beside such vertices in "
-                  "narrow crevices and gaps. Fill the crevice or gap in the geometry, move the parts there apart or into each other, or refine the wall there; "
-                  "the report of the mesh gives the reason at each vertex",
+                  "narrow crevices and gaps. Fill them with fill_crevices{{ wall, width = ... }} (docs/crevices.md), move the parts there apart or into each "
+                  "other, or refine the wall there; the report of the mesh gives the reason at each vertex",
                   n == 1 ? std::string("a vertex") : fmt::format("{} vertices", n), place.x, place.y, place.z));
 }
 
