@@ -1,5 +1,5 @@
-// Steps: tetrahedra without layers (fluid_of), thin tetrahedra between walls (Filler), what of them becomes solid (Filler::fill), the new wall
-// (Filler::result).
+// Steps: tetrahedra without layers (fluid_of), the tetrahedra between walls (Filler), which of them become solid (Filler::fill), the new wall
+// (Filler::result); again on the new wall until nothing becomes solid.
 #include "volmesh/fill_crevices.h"
 
 #include <fmt/format.h>
@@ -23,10 +23,11 @@ namespace {
 
 using Face = std::array<std::uint32_t, 3>;
 
-constexpr double k_size_growth = 2.0;  ///< size growth away from the wall, where tetrahedra have no influence
-constexpr double k_meshed = 0.8;       ///< share of the progress
-constexpr int k_most_rounds = 100;     ///< rounds of filling; aircraft need about five
-constexpr double k_same_place = 1e-6;  ///< over the body length: open boundaries were moved at most this far into their plane
+constexpr double k_size_growth = 2.0;   ///< size growth away from the wall, where tetrahedra have no influence
+constexpr int k_passes = 5;             ///< largest number of meshes of the fluid
+constexpr double k_repair_width = 2.0;  ///< over the width, for tetrahedra that make the wall manifold
+constexpr int k_most_rounds = 100;      ///< rounds of filling; aircraft need about five
+constexpr double k_same_place = 1e-6;   ///< over the body length: open boundaries were moved at most this far into their plane
 constexpr std::uint32_t k_none = tets::k_none;
 
 Face sorted(Face f) {
@@ -60,12 +61,8 @@ double thickness_of(const std::array<Vec3, 4>& x) {
 
 class Filler {
  public:
-  Filler(const TriMesh& wall, const HybridMesh& mesh, const CreviceOptions& options, const RunContext& context)
-      : wall_(wall), options_(options), context_(context), is_wall_node_(mesh.points.size(), 0) {
-    std::vector<tets::Corners> nodes;
-    nodes.reserve(mesh.tetrahedra.size());
-    for (const auto& tet : mesh.tetrahedra) nodes.push_back({tet[0].value(), tet[1].value(), tet[2].value(), tet[3].value()});
-    fluid_ = tets::connect(mesh.points.raw(), nodes, context);
+  Filler(const TriMesh& wall, const TriangleTree& given, tets::TetMesh fluid, const CreviceOptions& options, const RunContext& context)
+      : wall_(wall), given_(given), options_(options), context_(context), fluid_(std::move(fluid)), is_wall_node_(fluid_.points.size(), 0) {
     find_wall();
     require_same_wall();
     find_thin();
@@ -197,12 +194,17 @@ class Filler {
     return dot(a.normal, b.normal) < -std::cos(options_.angle) && is_before(a, b) && is_before(b, a);
   }
 
-  bool is_between_facing(std::uint32_t t) const {
+  /// Returns true if no corner of the tetrahedron is farther in front of the face than `width`.
+  bool is_near(std::uint32_t t, const WallFace& face, double width) const {
+    return std::ranges::all_of(corners_of(t), [&](const Vec3& corner) { return dot(face.normal, corner - face.middle) <= width; });
+  }
+
+  bool is_between_facing(std::uint32_t t, double width) const {
     const Vec3 middle = middle_of(t);
     std::vector<std::uint32_t> around;
     for (const std::uint32_t node : fluid_.nodes[t])
       for (const std::uint32_t f : faces_at_[node])
-        if (dot(faces_[f].normal, middle - faces_[f].middle) > 0.0) around.push_back(f);
+        if (dot(faces_[f].normal, middle - faces_[f].middle) > 0.0 && is_near(t, faces_[f], width)) around.push_back(f);
     sort_unique(around);
     for (std::size_t i = 0; i < around.size(); ++i)
       for (std::size_t j = i + 1; j < around.size(); ++j)
@@ -213,9 +215,15 @@ class Filler {
   bool fill_facing() {
     std::vector<std::uint32_t> found;
     for (std::uint32_t t = 0; t < state_.size(); ++t)
-      if (state_[t] == State::thin && is_between_facing(t)) found.push_back(t);
+      if (state_[t] == State::thin && is_between_facing(t, options_.width)) found.push_back(t);
     for (const std::uint32_t t : found) state_[t] = State::solid;
     return !found.empty();
+  }
+
+  /// Returns true if a tetrahedron may become solid to make the wall manifold: a little thicker than others, between facing walls as they are.
+  bool is_repair(std::uint32_t t) const {
+    const double width = k_repair_width * options_.width;
+    return (state_[t] == State::thin || state_[t] == State::between) && thickness_[t] <= width && is_between_facing(t, width);
   }
 
   /// Where the wall is not manifold, the thinnest tetrahedron between walls becomes solid; where there is none, the solid ones become fluid for good.
@@ -224,9 +232,7 @@ class Filler {
     for (const std::vector<std::uint32_t>& tets_there : broken_places()) {
       std::uint32_t best = k_none;
       for (const std::uint32_t t : tets_there)
-        if ((state_[t] == State::thin || state_[t] == State::between) && thickness_[t] <= 2.0 * options_.width &&
-            (best == k_none || thickness_[t] < thickness_[best]))
-          best = t;
+        if (is_repair(t) && (best == k_none || thickness_[t] < thickness_[best])) best = t;
       if (best != k_none) {
         state_[best] = State::solid;
         is_changed = true;
@@ -403,13 +409,12 @@ class Filler {
         const auto found = by_root.find(regions.root(static_cast<std::uint32_t>(state_.size()) + v.value()));
         if (found != by_root.end()) found->second.crevice.patches.push_back(wall_.patches[wall_.triangle_patch[t]].name);
       }
-    const TriangleTree tree(wall_, context_);
     for (const WallFace& face : faces_) {
       if (face.solid == k_none) continue;
       double& distance = by_root[regions.root(face.solid)].crevice.distance;
       const auto& [a, b, c] = face.nodes;
       const Vec3 &p = fluid_.points[a], &q = fluid_.points[b], &r = fluid_.points[c];
-      for (const Vec3& sample : {face.middle, 0.5 * (p + q), 0.5 * (q + r), 0.5 * (r + p)}) distance = std::max(distance, tree.nearest(sample).distance);
+      for (const Vec3& sample : {face.middle, 0.5 * (p + q), 0.5 * (q + r), 0.5 * (r + p)}) distance = std::max(distance, given_.nearest(sample).distance);
     }
     for (auto& [root, region] : by_root) {
       sort_unique(region.crevice.patches);
@@ -429,6 +434,7 @@ class Filler {
   };
 
   const TriMesh& wall_;
+  const TriangleTree& given_;  ///< of the wall before the first pass
   const CreviceOptions& options_;
   const RunContext& context_;
   tets::TetMesh fluid_;
@@ -441,6 +447,30 @@ class Filler {
   std::vector<std::vector<std::uint32_t>> faces_at_;
 };
 
+/// Returns tetrahedra in the fluid beside the wall. The nodes of the wall's vertices come first.
+tets::TetMesh fluid_of(const TriMesh& wall, const RunContext& context) {
+  MeshCase fluid;
+  fluid.envelope.layers = 0;
+  fluid.needles.split_needles = 0.0;
+  fluid.tetrahedra.boundary_splits = "never";
+  fluid.size.size_growth = k_size_growth;
+  const HybridMesh mesh = volume_mesh(wall, fluid, context).mesh;
+  std::vector<tets::Corners> nodes;
+  nodes.reserve(mesh.tetrahedra.size());
+  for (const auto& tet : mesh.tetrahedra) nodes.push_back({tet[0].value(), tet[1].value(), tet[2].value(), tet[3].value()});
+  return tets::connect(mesh.points.raw(), nodes, context);
+}
+
+/// Adds the report of a later pass.
+void add_pass(CreviceReport& report, CreviceReport pass) {
+  for (FilledCrevice& crevice : pass.crevices) report.crevices.push_back(std::move(crevice));
+  report.volume += pass.volume;
+  report.distance = std::max(report.distance, pass.distance);
+  report.n_triangles = pass.n_triangles;
+  report.n_left = pass.n_left;
+  report.left = std::move(pass.left);
+}
+
 }  // namespace
 
 CreviceResult fill_crevices(const TriMesh& wall, const CreviceOptions& options, const RunContext& context) {
@@ -449,15 +479,21 @@ CreviceResult fill_crevices(const TriMesh& wall, const CreviceOptions& options, 
                  .attempted = "filling crevices",
                  .problem = fmt::format("the width {} m is not positive", options.width),
                  .hint = "give the largest distance between facing walls that is filled, for example width = 0.02"});
-  MeshCase fluid;
-  fluid.envelope.layers = 0;
-  fluid.needles.split_needles = 0.0;
-  fluid.tetrahedra.boundary_splits = "never";
-  fluid.size.size_growth = k_size_growth;
-  const VolumeMeshResult meshed = volume_mesh(wall, fluid, context.part("fluid", 0.0, k_meshed));
-  Filler filler(wall, meshed.mesh, options, context);
-  filler.fill();
-  return filler.result();
+  const TriangleTree given(wall, context);
+  CreviceResult result{.wall = wall, .report = {}};
+  result.report.n_triangles_before = static_cast<std::int64_t>(wall.n_triangles());
+  for (int pass = 0; pass < k_passes; ++pass) {
+    const RunContext part = context.part("fluid", static_cast<double>(pass) / k_passes, (pass + 1.0) / k_passes);
+    Filler filler(result.wall, given, fluid_of(result.wall, part), options, part);
+    filler.fill();
+    CreviceResult made = filler.result();
+    const bool is_done = made.report.crevices.empty();
+    add_pass(result.report, std::move(made.report));
+    result.wall = std::move(made.wall);
+    if (is_done) break;
+  }
+  std::ranges::stable_sort(result.report.crevices, [](const FilledCrevice& a, const FilledCrevice& b) { return a.volume > b.volume; });
+  return result;
 }
 
 std::vector<std::string> to_lines(const CreviceReport& report, std::size_t n) {

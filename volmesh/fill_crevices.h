@@ -43,13 +43,14 @@ struct CreviceResult {
   CreviceReport report;
 };
 
-/// Fills crevices and gaps. The fluid beside the wall is meshed with tetrahedra without layers. A tetrahedron becomes solid if all its vertices are on walls,
-/// if it is thinner than `width` (smallest of its heights and of the distances between opposite edges), and if two triangles at its vertices face each other:
-/// their normals enclose more than pi - `angle`, and each has a corner in front of the other. Faces between solid and fluid tetrahedra become wall triangles,
-/// with the patch of the wall nearest through the solid tetrahedra. This is repeated on the new wall until nothing changes.
+/// Fills crevices and gaps. The fluid beside the wall is meshed with tetrahedra without layers. A tetrahedron becomes solid if all its nodes are on walls, if
+/// its thickness (smallest of its heights and of the distances between opposite edges) is at most `width`, and if two triangles at its nodes face each other:
+/// their normals enclose more than pi - `angle`, each has a corner in front of the other, and no node of the tetrahedron is farther in front of either than
+/// `width`. Faces between solid and fluid tetrahedra become wall triangles, with the patch of the wall nearest through the solid tetrahedra. This is repeated
+/// on the new wall, at last with new tetrahedra, until nothing changes.
 /// \pre manifold, oriented, without self-intersection; closed, or open along boundaries in planes
-/// \post the same; no vertex of the wall has moved, apart from open boundaries (bit-exactly into their planes); the wall is unchanged if nothing is filled
-/// \throws Error(bad_argument) for a width that is not positive, and for the options; the errors of volume_mesh()
+/// \post the same; no vertex of the wall has moved; the wall is unchanged if nothing is filled
+/// \throws Error(bad_argument) for a width that is not positive; the errors of volume_mesh()
 CreviceResult fill_crevices(const TriMesh& wall, const CreviceOptions& options, const RunContext& context);
 
 /// Returns one line for each crevice, the largest first, at most `n` of them.
