@@ -13,7 +13,7 @@ import shutil
 ROOT = pathlib.Path(__file__).resolve().parent.parent
 WINDOW, BAND = 100, 0.005  # iterations, share: a run has converged when its forces stay within it
 REFERENCE = 0.1            # reference area over the square of the length
-CREVICE = 0.002            # width over the length, up to which crevices are filled where a trailing edge overhangs a body: real aircraft have a fillet there
+CREVICE = 0.005            # width over the length, up to which crevices are filled where a trailing edge overhangs a body: real aircraft have a fillet there
 
 
 def script_before(name: str, end: str) -> str:

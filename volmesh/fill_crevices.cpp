@@ -1,5 +1,5 @@
-// Steps: tetrahedra without layers (fluid_of), the tetrahedra between walls (Filler), which of them become solid (Filler::fill), the new wall
-// (Filler::result); again on the new wall until nothing becomes solid.
+// Steps: tetrahedra between the points of the boundary (fluid_of), the tetrahedra between walls (Filler), which of them become solid (Filler::fill), the new
+// wall (Filler::result); again on the new wall until nothing becomes solid.
 #include "volmesh/fill_crevices.h"
 
 #include <fmt/format.h>
@@ -15,15 +15,15 @@
 #include "geom/base/error.h"
 #include "geom/base/sort_unique.h"
 #include "geom/mesh/bvh.h"
+#include "geom/tets/recover.h"
 #include "geom/tets/tet_mesh.h"
-#include "volmesh/volume_mesh.h"
+#include "volmesh/domain/complete_boundary.h"
 
 namespace sterna::volmesh {
 namespace {
 
 using Face = std::array<std::uint32_t, 3>;
 
-constexpr double k_size_growth = 2.0;   ///< size growth away from the wall, where tetrahedra have no influence
 constexpr int k_passes = 5;             ///< largest number of meshes of the fluid
 constexpr double k_repair_width = 2.0;  ///< over the width, for tetrahedra that make the wall manifold
 constexpr int k_most_rounds = 100;      ///< rounds of filling; aircraft need about five
@@ -75,7 +75,7 @@ class Filler {
       bool is_changed = fill_facing();
       if (is_changed) make_surface();
       is_changed = repair_topology() || is_changed;
-      if (!is_changed && !open_enclosed()) return;
+      if (!is_changed && !join_enclosed()) return;
     }
     throw Error({.code = ErrorCode::geometry_failed,
                  .attempted = "filling crevices",
@@ -184,14 +184,25 @@ class Filler {
     }
   }
 
-  /// Returns true if two faces face each other across the fluid. Behind a convex edge all corners of each face are behind the other one.
-  bool are_facing(const WallFace& a, const WallFace& b) const {
-    const auto is_before = [&](const WallFace& face, const WallFace& other) {
-      return std::ranges::any_of(other.nodes, [&](std::uint32_t node) {
-        return std::ranges::find(face.nodes, node) == face.nodes.end() && dot(face.normal, fluid_.points[node] - face.middle) > 0.0;
-      });
+  /// Returns true if the normal of `face` meets a sample of `other` in front of the face, at a distance of at most `width`.
+  bool is_over(const WallFace& face, const WallFace& other, double width) const {
+    const auto& [a, b, c] = face.nodes;
+    const Vec3 &p = fluid_.points[a], &q = fluid_.points[b], &r = fluid_.points[c];
+    const auto is_inside = [&](const Vec3& x) {
+      return dot(face.normal, cross(q - p, x - p)) >= 0.0 && dot(face.normal, cross(r - q, x - q)) >= 0.0 && dot(face.normal, cross(p - r, x - r)) >= 0.0;
     };
-    return dot(a.normal, b.normal) < -std::cos(options_.angle) && is_before(a, b) && is_before(b, a);
+    const std::array<Vec3, 3> corners = {fluid_.points[other.nodes[0]], fluid_.points[other.nodes[1]], fluid_.points[other.nodes[2]]};
+    for (std::size_t i = 0; i < 3; ++i)
+      for (const Vec3& sample : {corners[i], 0.5 * (corners[i] + corners[(i + 1) % 3]), other.middle}) {
+        const double height = dot(face.normal, sample - face.middle);
+        if (height > 1e-9 * width && height <= width && is_inside(sample)) return true;
+      }
+    return false;
+  }
+
+  /// Returns true if two faces face each other across the fluid: one is over the other. Behind a convex edge each face is behind the plane of the other one.
+  bool are_facing(const WallFace& a, const WallFace& b, double width) const {
+    return dot(a.normal, b.normal) < -std::cos(options_.angle) && (is_over(a, b, width) || is_over(b, a, width));
   }
 
   /// Returns true if no corner of the tetrahedron is farther in front of the face than `width`.
@@ -208,7 +219,7 @@ class Filler {
     sort_unique(around);
     for (std::size_t i = 0; i < around.size(); ++i)
       for (std::size_t j = i + 1; j < around.size(); ++j)
-        if (are_facing(faces_[around[i]], faces_[around[j]])) return true;
+        if (are_facing(faces_[around[i]], faces_[around[j]], width)) return true;
     return false;
   }
 
@@ -281,8 +292,9 @@ class Filler {
     return broken;
   }
 
-  /// Fluid that solid tetrahedra would separate from the rest stays connected: the solid tetrahedra around it become fluid for good.
-  bool open_enclosed() {
+  /// Finds fluid that solid tetrahedra separate from the rest. Inside a gap it becomes solid as well. Other fluid stays connected:
+  /// the solid tetrahedra around it become fluid for good.
+  bool join_enclosed() {
     const auto n = static_cast<std::uint32_t>(state_.size());
     DisjointSets before(n), now(n);
     for (std::uint32_t t = 0; t < n; ++t)
@@ -300,9 +312,17 @@ class Filler {
       for (const auto& [part, volume] : parts)
         if (part != largest->first) small.insert(part);
     }
+    std::set<std::uint32_t> open;  // parts that are no gap
+    for (std::uint32_t t = 0; t < n; ++t)
+      if (!is_solid(t) && small.contains(now.root(t)) && !is_repair(t)) open.insert(now.root(t));
     bool is_changed = false;
     for (std::uint32_t t = 0; t < n; ++t) {
       if (is_solid(t) || !small.contains(now.root(t))) continue;
+      if (!open.contains(now.root(t))) {
+        state_[t] = State::solid;
+        is_changed = true;
+        continue;
+      }
       for (const std::uint32_t across : fluid_.neighbours[t])
         if (across != k_none) is_changed = reopen(across / 4) || is_changed;
     }
@@ -434,7 +454,7 @@ class Filler {
   };
 
   const TriMesh& wall_;
-  const TriangleTree& given_;  ///< of the wall before the first pass
+  const TriangleTree& given_;  ///< tree of the wall before the first pass
   const CreviceOptions& options_;
   const RunContext& context_;
   tets::TetMesh fluid_;
@@ -447,23 +467,41 @@ class Filler {
   std::vector<std::vector<std::uint32_t>> faces_at_;
 };
 
-/// Returns tetrahedra in the fluid beside the wall. The nodes of the wall's vertices come first.
+/// Returns tetrahedra in the fluid whose nodes are the points of its boundary, up to a few points that keep the boundary. The wall's vertices come first.
 tets::TetMesh fluid_of(const TriMesh& wall, const RunContext& context) {
-  MeshCase fluid;
-  fluid.envelope.layers = 0;
-  fluid.needles.split_needles = 0.0;
-  fluid.tetrahedra.boundary_splits = "never";
-  fluid.size.size_growth = k_size_growth;
-  const HybridMesh mesh = volume_mesh(wall, fluid, context).mesh;
-  std::vector<tets::Corners> nodes;
-  nodes.reserve(mesh.tetrahedra.size());
-  for (const auto& tet : mesh.tetrahedra) nodes.push_back({tet[0].value(), tet[1].value(), tet[2].value(), tet[3].value()});
-  return tets::connect(mesh.points.raw(), nodes, context);
+  const TriMesh boundary = complete_boundary(wall, {}, context);
+  std::vector<tets::Facet> facets;
+  facets.reserve(boundary.n_triangles());
+  for (const TriangleVertices& v : boundary.triangles) facets.push_back({v[0].value(), v[1].value(), v[2].value()});
+  tets::Recovery recovery = tets::recover(boundary.points.raw(), facets, {}, context);
+  if (!recovery.mesh.nodes.empty()) return std::move(recovery.mesh);
+  ErrorInfo error{.code = ErrorCode::geometry_failed,
+                  .attempted = "filling crevices",
+                  .problem = "the fluid beside the wall has no tetrahedra with all triangles of the wall as faces: " + recovery.failure.problem,
+                  .hint = "remesh the wall first"};
+  for (const Vec3& place : recovery.failure.places) error.places.push_back({place, "triangle or edge that is missing"});
+  throw Error(std::move(error));
 }
 
-/// Adds the report of a later pass.
+/// Adds a crevice of a later pass to `other`, which it touches.
+void merge(FilledCrevice& other, FilledCrevice crevice) {
+  if (crevice.volume > other.volume) other.place = crevice.place;
+  other.box.add(crevice.box);
+  other.volume += crevice.volume;
+  other.width = std::max(other.width, crevice.width);
+  other.distance = std::max(other.distance, crevice.distance);
+  other.n_tetrahedra += crevice.n_tetrahedra;
+  other.patches.insert(other.patches.end(), crevice.patches.begin(), crevice.patches.end());
+  sort_unique(other.patches);
+}
+
+/// Adds the report of a later pass. Crevices whose boxes touch are one crevice.
 void add_pass(CreviceReport& report, CreviceReport pass) {
-  for (FilledCrevice& crevice : pass.crevices) report.crevices.push_back(std::move(crevice));
+  for (FilledCrevice& crevice : pass.crevices) {
+    const auto touched = std::ranges::find_if(report.crevices, [&](const FilledCrevice& other) { return overlap(other.box, crevice.box); });
+    if (touched == report.crevices.end()) report.crevices.push_back(std::move(crevice));
+    else merge(*touched, std::move(crevice));
+  }
   report.volume += pass.volume;
   report.distance = std::max(report.distance, pass.distance);
   report.n_triangles = pass.n_triangles;

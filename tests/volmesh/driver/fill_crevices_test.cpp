@@ -18,10 +18,9 @@ namespace sterna::volmesh {
 namespace {
 
 using test::k_context;
-using test::k_degree;
 
 /// Two unit cubes with a gap between x = 1 and x = 1 + gap.
-TriMesh two_cubes(double gap) {
+TriMesh cubes_with_gap(double gap) {
   TriMesh wall = test::cube(4);
   TriMesh other = test::cube(4);
   other.patches[PatchId(0)].name = "other";
@@ -36,7 +35,7 @@ void expect_sound(const TriMesh& wall, std::size_t n_boundary) {
 }
 
 TEST(FillCrevices, GapBetweenCubesBecomesSolid) {
-  const TriMesh wall = two_cubes(0.02);
+  const TriMesh wall = cubes_with_gap(0.02);
   const CreviceResult made = fill_crevices(wall, {.width = 0.05}, k_context);
   expect_sound(made.wall, 0);
   // The gap is 1 x 1 x 0.02 m and its mouth is flat: the solid is a box of 2.02 m.
@@ -52,7 +51,7 @@ TEST(FillCrevices, GapBetweenCubesBecomesSolid) {
 }
 
 TEST(FillCrevices, WiderGapStaysUnchanged) {
-  const TriMesh wall = two_cubes(0.02);
+  const TriMesh wall = cubes_with_gap(0.02);
   const CreviceResult made = fill_crevices(wall, {.width = 0.01}, k_context);
   EXPECT_TRUE(made.report.crevices.empty());
   EXPECT_EQ(made.wall.points, wall.points);
@@ -60,7 +59,7 @@ TEST(FillCrevices, WiderGapStaysUnchanged) {
 }
 
 TEST(FillCrevices, SameTrianglesWithAnyNumberOfThreads) {
-  const TriMesh wall = two_cubes(0.02);
+  const TriMesh wall = cubes_with_gap(0.02);
   const CreviceResult one = fill_crevices(wall, {.width = 0.05}, RunContext({.threads = 1}));
   const CreviceResult seven = fill_crevices(wall, {.width = 0.05}, RunContext({.threads = 7}));
   EXPECT_EQ(one.wall.points, seven.wall.points);
@@ -68,7 +67,7 @@ TEST(FillCrevices, SameTrianglesWithAnyNumberOfThreads) {
 }
 
 TEST(FillCrevices, HalfModelKeepsItsBoundaryInThePlane) {
-  const TriMesh half = test::cut_off(two_cubes(0.02), 1, 0.25);
+  const TriMesh half = test::cut_off(cubes_with_gap(0.02), 1, 0.25);
   const CreviceResult made = fill_crevices(half, {.width = 0.05}, k_context);
   ASSERT_EQ(made.report.crevices.size(), 1u);
   EXPECT_TRUE(find_crossings(made.wall, k_context).pairs.empty());
@@ -82,7 +81,7 @@ TEST(FillCrevices, HalfModelKeepsItsBoundaryInThePlane) {
 }
 
 TEST(FillCrevices, ApexOfSharpWedgeBecomesSolidUpToTheWidth) {
-  const double angle = 5.0 * k_degree;
+  const double angle = 5.0 * test::k_degree;
   const TriMesh room = test::wedge_room(angle, 10);
   const CreviceResult made = fill_crevices(room, {.width = 0.02}, k_context);
   expect_sound(made.wall, 0);
@@ -95,8 +94,9 @@ TEST(FillCrevices, ApexOfSharpWedgeBecomesSolidUpToTheWidth) {
   EXPECT_LT(made.report.volume, 0.5 * angle * (r + 0.1) * (r + 0.1));
 }
 
+/// The angles of the room are 70, 55 and 55 degrees.
 TEST(FillCrevices, WideWedgeIsNoCrevice) {
-  const CreviceResult made = fill_crevices(test::wedge_room(70.0 * k_degree, 6), {.width = 0.5}, k_context);
+  const CreviceResult made = fill_crevices(test::wedge_room(70.0 * test::k_degree, 6), {.width = 0.5, .angle = 50.0 * test::k_degree}, k_context);
   EXPECT_TRUE(made.report.crevices.empty());
 }
 
