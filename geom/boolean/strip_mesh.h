@@ -50,7 +50,8 @@ struct StripTriangle {
 
 /// Limits of all exchanges.
 struct StripLimits {
-  double max_bend = 0.35;  ///< rad; edges whose input triangles bend by more are kept, and no triangle may rotate further away from its input
+  double max_bend = 0.35;  ///< rad; edges whose input triangles bend by more are kept, and no triangle's normal may turn by more from that of its input
+                           ///< triangle
 };
 
 /// Limits of a collapse.
@@ -106,7 +107,8 @@ class StripMesh {
     std::vector<std::uint32_t> removed;
     std::vector<StripTriangle> added;
   };
-  /// Triangles thinner than `negligible` (m) are not tested, since they have no normal.
+  /// Returns true if no new triangle turns from its input triangle by more than max_bend. Triangles thinner than `negligible` (m) are not tested, since they
+  /// have no normal.
   bool are_normals_sound(const Exchange& exchange, double negligible = 0.0) const;
   /// Returns true if the kept edges at `from` allow moving it to `to`.
   bool is_way_along_kept_edges(std::uint32_t from, std::uint32_t to, double tolerance) const;

@@ -15,7 +15,7 @@ enum class ContactKind {
   crossing,  ///< the surfaces intersect
   touching,  ///< the distance is below the tolerance without crossing: a common face, edge or point
   inside,    ///< one part lies in the other
-  apart,     ///< nearest points of a group of connected parts and the rest: one contact less than there are groups
+  apart,     ///< a group of connected parts is separate from the rest; the contact gives their nearest points; n groups have n - 1 such contacts
 };
 std::string_view to_string(ContactKind kind);
 
@@ -33,7 +33,8 @@ struct PartContact {
 /// Fraction of a part's surface that remains in the union, estimated from samples.
 struct PartExposure {
   double outside = 1.0;  ///< fraction of the area outside all other parts
-  double unsure = 0.0;   ///< fraction within 1e-3 of the parts' sizes of another part's surface: common faces, and a strip along every crossing
+  double unsure = 0.0;   ///< fraction of the area that is nearer to another part's surface than 1e-3 of the parts' sizes: common faces, and a strip along every
+                         ///< crossing
 };
 
 struct ContactReport {

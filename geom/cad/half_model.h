@@ -1,4 +1,4 @@
-// Half of a model, cut at a plane of symmetry: open there, with a boundary that lies exactly in the plane, to the last bit.
+// Cuts a model at a plane of symmetry. The half is open there; its boundary lies exactly in the plane, to the last bit.
 #pragma once
 
 #include <string>

@@ -49,8 +49,8 @@ using Judge = std::function<void(BooleanTry&)>;
 std::optional<BooleanTry> climb(const BooleanTask& task, const std::vector<BooleanPart>& parts, double size, const Judge& judge, std::vector<UniteTry>& tries,
                                 const RunContext& context);
 
-/// Returns the first defect that any result may have: faults of OpenCASCADE's check, free edges (their locations are stored in outcome.places); empty if there
-/// is none. Then measures the remaining area of each part, m^2, and the volume of the result. \p what is its name in messages: "half".
+/// Tests for defects that any result may have: faults of OpenCASCADE's check, and free edges (their locations are stored in outcome.places). Returns the first
+/// one; empty if there is none. Then measures the remaining area of each part, m^2, and the volume of the result. \p what is its name in messages: "half".
 /// \pre one entry of `areas` per part, 0
 std::string measure_result(BooleanTry& result, const std::string& what, std::vector<double>& areas, const RunContext& context);
 

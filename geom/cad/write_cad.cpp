@@ -1,5 +1,5 @@
-// Steps: splines for geometry without an exact form, the shape without placements, an extended document (XDE) with names, colours and layers, the format's
-// writer, a header without date.
+// Steps: approximate geometry without an exact form by splines; make the shape without placements; create an extended document (XDE) with names, colours and
+// layers; run the format's writer; remove the date from the header.
 #include "geom/cad/write_cad.h"
 
 #include <APIHeaderSection_MakeHeader.hxx>

@@ -1,4 +1,4 @@
-// Main function: options to a scene, the scene to a picture, and the elements beside it.
+// Main function: converts options to a scene, draws the scene as a picture, and adds title, legend and axes.
 #include "geom/draw/draw.h"
 
 #include <algorithm>

@@ -26,11 +26,11 @@ using exact::Triple;
 
 enum class Verdict { invalid, valid, undecided };
 
-// Roundings carried by a term of a coefficient (rule at exact::Bounded): two differences, product, subtraction, for 2 b1 one addition of the two
-// cross products; then difference, product, two additions.
+// Roundings carried by a term of a coefficient (rule at exact::Bounded): two differences, one product, one subtraction, and for 2 b1 one addition of the two
+// cross products; then one difference, one product, two additions.
 constexpr int k_wedge_roundings = 9;
 constexpr double k_bound = (k_wedge_roundings + 1) * exact::k_unit;
-// Relative margin for comparing -2 b1 with 2 sqrt(b0) sqrt(b2): two roots, two products, and the bounds' own subtraction, 5 roundings; doubled.
+// Relative margin for comparing -2 b1 with 2 sqrt(b0) sqrt(b2): two roots, two products, and the subtraction in the bounds make 5 roundings, which are doubled.
 constexpr double k_root_margin = 10 * exact::k_unit;
 
 /// Returns the Bernstein coefficients of N(z), the middle one doubled.
@@ -106,7 +106,8 @@ bool is_wedge_valid(const WedgePoints& p) {
 }
 
 double wedge_volume(const WedgePoints& p) {
-  // Integral of the Jacobian: mean over the triangle of the three edges, mean over the height of the three coefficients, times 1/2.
+  // Integral of the Jacobian: its mean over the triangle is the mean of the three edges, its mean over the height that of the three coefficients; the area
+  // factor is 1/2.
   const Vec3 a = p[1] - p[0], b = p[2] - p[0];
   const Vec3 a_top = p[4] - p[3], b_top = p[5] - p[3];
   const Vec3 normal = cross(a, b) + 0.5 * (cross(a, b_top) + cross(a_top, b)) + cross(a_top, b_top);
