@@ -257,7 +257,8 @@ struct WayOut {
   double distance = 0.0;
 };
 
-/// Returns nothing if the point is inside the container, or within the triangulation's deviation from the surface and inside the surface.
+/// Returns the way from the container's surface to a point outside. Returns nothing if the point is inside the container, also if it is only inside the exact
+/// surface but outside the triangulation.
 std::optional<WayOut> way_out(const Skin& container, const Point& p) {
   if (is_inside(container, p)) return std::nullopt;
   const NearestHit hit = container.tree->nearest(p);

@@ -15,8 +15,9 @@ namespace sterna {
 /// \pre 1 or 2 others, 1 to 4 rest; finite coordinates, range as for orient3d.
 int sub_volume_sign(const Vec3& corner, const Vec3& next, std::span<const Vec3> others, std::span<const Vec3> rest);
 
-/// Returns true if all 36 sub-tets of a wedge (CGNS order), or all 32 of a pyramid, are positive. Neither implies nor follows from is_wedge_valid: the centroid
-/// of a strongly leaning or warped wedge lies outside the cone of one of its faces. Exact; floating point first, about 10 M wedges/s/core.
+/// Returns true if all 36 sub-tets of a wedge (CGNS order), or all 32 of a pyramid, are positive. This test and is_wedge_valid are independent: neither implies
+/// the other, because the centroid of a strongly leaning or warped wedge lies outside the cone of one of its faces. Exact; floating point first, about 10 M
+/// wedges/s/core.
 bool are_sub_volumes_positive(const WedgePoints& p);
 bool are_sub_volumes_positive(const std::array<Vec3, 5>& p);
 

@@ -1,4 +1,5 @@
-// Airfoil sections: read from files, generated from NACA designations, trailing edge opened or closed, repaneled, converted to splines.
+// Airfoil sections. They are read from files or generated from NACA designations, their trailing edge is opened or closed, and they are repaneled or converted
+// to splines.
 #pragma once
 
 #include <filesystem>

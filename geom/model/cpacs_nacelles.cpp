@@ -1,4 +1,4 @@
-// Nacelles of CPACS engines: rings of sections about the x axis (translations of sections are cylindrical: angle, x, radius) and a center body.
+// Reads nacelles of CPACS engines: rings of sections about the x axis, and a center body. Translations of sections are cylindrical: angle, x, radius.
 #include <algorithm>
 #include <cmath>
 

@@ -9,10 +9,10 @@
 namespace sterna {
 namespace {
 
-/// Buckets of the span table per span: spans of uniform knots are found without any comparison.
+/// Number of buckets of the span table per span: the spans of uniform knots are found without any comparison.
 constexpr std::size_t k_buckets_per_span = 2;
 constexpr std::size_t k_max_buckets = 1 << 16;
-/// Fraction of a bucket: rounding may put a parameter into the neighbouring bucket.
+/// Tolerance as a fraction of a bucket: rounding may put a parameter into the neighbouring bucket.
 constexpr double k_bucket_margin = 1e-6;
 
 void check_knots(int degree, const std::vector<double>& knots, std::string_view attempted) {

@@ -9,7 +9,7 @@
 namespace sterna {
 
 struct ControlSetting {
-  std::string names;   ///< name of control surfaces or of a control that moves several; a pattern (* and ?)
+  std::string names;   ///< name of a control surface, or of a control that moves several surfaces; or a pattern with * and ?
   double angle = 0.0;  ///< radians; sign as in Deflection; for a control: multiplied by the factor of each participating surface
   ControlGap gap = ControlGap::sealed;
   double fairing = Deflection::k_automatic_fairing;  ///< m

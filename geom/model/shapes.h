@@ -125,7 +125,7 @@ struct Schema<NacelleOptions> {
 /// \throws Error(bad_argument)
 Body nacelle_body(const std::string& name, const Point& position, const NacelleOptions& options);
 
-/// Pylon between a wing and a nacelle below or above it: from just below the cowl's surface to inside the wing.
+/// Pylon between a wing and a nacelle below or above it. It extends from just below the cowl's surface to inside the wing.
 struct PylonOptions {
   double thickness = 0.1;
   double nacelle_from = 0.2;
