@@ -46,7 +46,7 @@ void convert_row(int old_degree, const std::vector<double>& old_knots, const Lan
   const auto q = static_cast<std::size_t>(degree);
   const std::size_t n = knots.size() - q - 1;
   for (std::size_t j = 0; j < n; ++j) {
-    // Of the spans below the new pole, the longest gives the smallest rounding error.
+    // The longest span below the new pole gives the smallest rounding error.
     std::size_t widest = j;
     for (std::size_t k = j; k <= j + q; ++k)
       if (knots[k + 1] - knots[k] > knots[widest + 1] - knots[widest]) widest = k;

@@ -1,4 +1,5 @@
-// VTU files of any content: named arrays, generated block by block, compressed in parallel, appended raw (docs/method/formats.md, "VTU and VTP").
+// Writes VTU files of any content. They consist of named arrays, which are generated block by block, compressed in parallel and appended raw
+// (docs/method/formats.md, "VTU and VTP").
 #pragma once
 
 #include <cstdint>
@@ -37,7 +38,7 @@ struct VtuDocument {
   std::uint64_t n_points = 0;
   std::uint64_t n_cells = 0;
   VtuArray points;                        ///< 3 components
-  VtuArray connectivity, offsets, types;  ///< VTK node order, end positions, VTK numbers (unused for PolyData)
+  VtuArray connectivity, offsets, types;  ///< nodes in VTK order, end position of each cell, VTK types (types are not used for PolyData)
   std::vector<VtuArray> point_data;
   std::vector<VtuArray> cell_data;
   std::vector<std::pair<std::string, std::int32_t>> field_data;  ///< single numbers by name
