@@ -35,8 +35,7 @@ herr_t close_file(H5FD_t* file) {
 
 herr_t query(const H5FD_t*, unsigned long* flags) {
   if (flags)
-    *flags = H5FD_FEAT_AGGREGATE_METADATA | H5FD_FEAT_ACCUMULATE_METADATA | H5FD_FEAT_DATA_SIEVE | H5FD_FEAT_AGGREGATE_SMALLDATA;  // the same flags as in
-                                                                                                                                   // HDF5's own driver
+    *flags = H5FD_FEAT_AGGREGATE_METADATA | H5FD_FEAT_ACCUMULATE_METADATA | H5FD_FEAT_DATA_SIEVE | H5FD_FEAT_AGGREGATE_SMALLDATA;  // as HDF5's own driver
   return 0;
 }
 
@@ -57,7 +56,7 @@ herr_t write(H5FD_t* file, H5FD_mem_t, hid_t, haddr_t offset, std::size_t n, con
   OpenFile& own = of(file);
   own.driver->attempt([&](AtomicFile& target) { target.put(offset, {static_cast<const char*>(bytes), n}); });
   own.end = std::max<haddr_t>(own.end, offset + n);
-  return 0;  // success is returned even after a failure: see Hdf5Driver
+  return 0;  // success even after a failure: see Hdf5Driver
 }
 
 herr_t truncate(H5FD_t* file, hid_t, hbool_t) {

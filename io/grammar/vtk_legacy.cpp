@@ -1,5 +1,5 @@
-// Three lines, then keywords in any order. Each announces numbers, as text or as big-endian bytes after the keyword's line. The text scanner controls the
-// parsing; a byte reader is used inside a binary block. Attributes other than patch numbers are skipped by their size.
+// A file has three lines, then keywords in any order. Each keyword announces numbers, as text or as big-endian bytes after the keyword's line. The text scanner
+// controls the parsing; a byte reader is used inside a binary block. Attributes other than patch numbers are skipped by their size.
 #include "io/grammar/vtk_legacy.h"
 
 #include <algorithm>

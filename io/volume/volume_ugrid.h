@@ -10,7 +10,7 @@
 
 namespace sterna::io {
 
-/// Permutation for pyramids: ugrid_node[i] = cgns_node[order[i]]; the quad is 0 1 4 3, the apex 2. Its own inverse.
+/// Permutation for pyramids: ugrid_node[i] = cgns_node[order[i]]. The quad is 0 1 4 3, the apex 2. The permutation is its own inverse.
 inline constexpr std::array<std::uint8_t, 8> k_ugrid_pyramid = {0, 3, 4, 1, 2};
 
 /// Reads text (.ugrid) and binary files (b8, lb8, b8l, lb8l, b4, lb4). Names and kinds of patches come from the .mapbc file beside the mesh, else "patch_<id>",
