@@ -46,7 +46,7 @@ struct NameChange {
 
 struct Faces {
   std::vector<std::uint32_t> corners;
-  std::vector<std::size_t> ends;  ///< per face: number of corners up to its end
+  std::vector<std::size_t> ends;  ///< per face: index in `corners` after its last corner
   std::array<std::vector<NameChange>, k_n_namings> changes;
   std::size_t size() const { return ends.size(); }
 };
