@@ -148,7 +148,7 @@ struct Schema<FamilyTolerances> {
                .member = &O::fail,
                .min = 1.0,
                .max = 1000.0,
-               .help = "number of tolerances beyond which a rule FAILs; smaller deviations beyond the tolerance are warnings"},
+               .help = "a deviation of more than this number of tolerances is a FAIL; from one tolerance up to it a warning"},
   };
 };
 

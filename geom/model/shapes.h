@@ -148,7 +148,8 @@ struct Schema<PylonOptions> {
                .member = &O::nacelle_to,
                .min = 0.0,
                .max = 1.5,
-               .help = "position of the trailing edge at the cowl, relative to the nacelle's length; above 0.98 the edge is behind the nozzle, over the jet"},
+               .help = "position of the pylon's trailing edge on the nacelle, as a fraction of the nacelle's length; above 0.98 the trailing edge lies behind "
+                       "the nozzle, above the jet"},
       Field<O>{.name = "wing_from",
                .member = &O::wing_from,
                .min = -0.5,

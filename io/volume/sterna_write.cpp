@@ -12,7 +12,8 @@
 namespace sterna::io {
 namespace {
 
-static_assert(sizeof(NodeId) == 4 && sizeof(Vec3) == 24 && sizeof(std::array<NodeId, 6>) == 24, "arrays are written as they are in memory");
+static_assert(sizeof(NodeId) == 4 && sizeof(Vec3) == 24 && sizeof(std::array<NodeId, 6>) == 24,
+              "arrays are written as they are in memory, so these types must have no padding");
 
 /// Joins strings, each terminated with NUL.
 std::string joined(const std::vector<std::string>& strings) {

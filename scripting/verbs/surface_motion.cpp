@@ -51,7 +51,7 @@ ScriptValue rotate_surface(const ScriptCall& call) {
 }
 
 constexpr std::array<ScriptVerb, 2> k_motions = {{
-    {"surface:move", k_surface_move_usage, "Returns the surface moved, in metres.", move_surface, nullptr, true, "surface"},
+    {"surface:move", k_surface_move_usage, "Returns a copy of the surface, moved by a vector in metres.", move_surface, nullptr, true, "surface"},
     {"surface:rotate", k_surface_rotate_usage, "Returns the surface rotated: x points aft, y to starboard, z up.", rotate_surface, rotate_help, true,
      "surface"},
 }};
