@@ -1,4 +1,4 @@
-// Steps of the reader: translate, unit, repair, model, report.
+// The reader translates the file, applies its unit, repairs the shape, makes the model and writes the report.
 #include "geom/cad/read_cad.h"
 
 #include <BRepGProp.hxx>

@@ -58,7 +58,7 @@ struct SurfaceTriangulation {
 /// Returns the power of two nearest to `speed` (metres per parameter), 1 if it is zero: the scale factor of (u, v).
 double scale_of_speed(double speed);
 
-/// Constrained Delaunay triangulation of the border in the scaled plane; no inner vertices yet.
+/// Returns the constrained Delaunay triangulation of the border in the scaled plane. It has no inner vertices yet.
 /// \post every segment of a loop is an edge with the domain on one side
 /// \throws Error(self_intersection) with the location in space where borders cross or touch along an edge; Error(bad_argument) if the domain is empty
 SurfaceTriangulation triangulate_border(const SurfaceBorder& border, Vec2 scale, const RunContext& context);

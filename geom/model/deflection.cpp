@@ -134,9 +134,7 @@ void check_overlaps(const std::vector<Deflection>& deflections, const WingSpan& 
       if (!share_an_edge(a, b)) continue;
       Reach p = reach_of(a, span), q = reach_of(b, span);
       for (const auto& [reach, deflection] : {std::pair{&p, &a}, std::pair{&q, &b}})
-        if (is_open(*deflection))
-          *reach = {reach->from - reach->end_gap, reach->to + reach->end_gap, 0.0};                             // a part of the wing must remain between the
-                                                                                                                // surfaces
+        if (is_open(*deflection)) *reach = {reach->from - reach->end_gap, reach->to + reach->end_gap, 0.0};     // wing must remain between two surfaces
         else if (deflection->angle == 0.0) *reach = {reach->from + k_same_span, reach->to - k_same_span, 0.0};  // patches may touch
       if (p.from - p.fade < q.to + q.fade && q.from - q.fade < p.to + p.fade)
         refuse_deflection(ErrorCode::bad_argument, a,

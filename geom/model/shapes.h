@@ -10,11 +10,11 @@
 
 namespace sterna {
 
-/// Axis-parallel box as a solid body.
+/// Returns an axis-parallel box as a solid body.
 /// \throws Error(bad_argument) if its size is zero
 Model make_box(const std::string& name, const Point& from, const Point& to);
 
-/// Solid cylinder between two points.
+/// Returns a solid cylinder between two points.
 /// \throws Error(bad_argument) if its length or radius is zero
 Model make_cylinder(const std::string& name, const Point& from, const Point& to, double radius);
 

@@ -148,8 +148,7 @@ std::vector<std::uint32_t> BulkInserter::run_pass(std::span<const Seed> seeds, s
   std::size_t n_places = mesh_.nodes.size();
   std::vector<std::uint32_t> first_new(n_blocks + 1);
   for (std::size_t block = 0; block < n_blocks; ++block) {
-    const std::size_t wanted = k_places_per_seed * own[block].size() + (n_blocks > 1 ? k_more_places : 2 * most_effort_ + 4);  // with a single block there must
-                                                                                                                               // be enough slots for any point
+    const std::size_t wanted = k_places_per_seed * own[block].size() + (n_blocks > 1 ? k_more_places : 2 * most_effort_ + 4);  // one block: slots for any point
     first_new[block] = static_cast<std::uint32_t>(n_places);
     if (wanted > free[block].size()) n_places += wanted - free[block].size();
   }

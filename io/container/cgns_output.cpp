@@ -15,8 +15,7 @@ Hdf5OutputNode hdf5_node(const CgnsOutputNode& node) {
   group.attributes.push_back(text_attribute("name", node.name, k_cgns_name + 1));
   group.attributes.push_back(text_attribute("label", node.label, k_cgns_name + 1));
   group.attributes.push_back(text_attribute("type", node.has_data ? cgns_type_of(node.array.kind) : "MT", 3));
-  group.attributes.push_back({.name = "flags", .kind = NumberKind::i4, .extents = {1}, .bytes = std::string("\1\0\0\0", 4)});  // the value 1 marks reversed
-                                                                                                                               // extents
+  group.attributes.push_back({.name = "flags", .kind = NumberKind::i4, .extents = {1}, .bytes = std::string("\1\0\0\0", 4)});  // 1: the extents are reversed
   if (node.has_data) {
     Hdf5OutputNode data{.name = std::string(k_data_node), .is_dataset = true, .array = node.array};
     std::reverse(data.array.extents.begin(), data.array.extents.end());

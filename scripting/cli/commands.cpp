@@ -461,9 +461,7 @@ CaseAddress case_of_text(const std::string& text) {
 std::vector<std::string> worker_words(const RunCommand& command, const RunContext& run) {
   std::vector<std::string> words;
   for (const auto& [name, value] : command.overrides)
-    if (name != "retry" && name != "series.retry")
-      words.push_back("--set=" + name + "=" + value);  // which cases are run again does not affect the result of a
-                                                       // case
+    if (name != "retry" && name != "series.retry") words.push_back("--set=" + name + "=" + value);  // a case does not depend on these two
   words.push_back("--seed=" + std::to_string(run.seed()));
   for (const auto& [name, value] : command.arguments) words.push_back(name + "=" + value);
   if (!command.input_folder.empty()) words.push_back("--look-in=" + command.input_folder.string());

@@ -142,8 +142,8 @@ struct ConvertCommand {
   std::vector<std::string> given;  ///< result of given_options
 };
 
-/// `sterna info` and `sterna check` of a model file (model_commands.cpp). They print its content with its reference data, or if it is closed, with every open
-/// edge.
+/// `sterna info` and `sterna check` of a model file (model_commands.cpp). The first prints the content of the model with its reference data; the second prints
+/// whether the model is closed, with every open edge.
 int print_model_info(const InfoCommand& command, const CommandContext& context);
 int check_model(const CheckCommand& command, const CommandContext& context);
 /// `sterna union` of models, and `sterna convert` of a model to a model. `options` are checked against each command's schema.

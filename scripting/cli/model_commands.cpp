@@ -32,9 +32,7 @@ int print_model_info(const InfoCommand& command, const CommandContext& context) 
   const ModelValue value = read_model(input_of(command.input), options, context.run.part("read", 0.0, k_model_read_end));
   const ModelReport measures = measure_model(value, context.run.part("measure", k_model_read_end, 1.0));
   context.console.end_progress();
-  if (!value.report.empty() && !value.description)
-    context.console.print(command.input + ": " + value.report);  // the log already has the findings on
-                                                                 // descriptions
+  if (!value.report.empty() && !value.description) context.console.print(command.input + ": " + value.report);  // the log has the report of a description
   context.console.print(describe(value));
   context.console.print(measures_text(measures));
   context.console.print("  closed   " + closedness_text(value.model, k_listed_edges));

@@ -20,8 +20,7 @@ namespace {
 
 constexpr double k_degree = std::numbers::pi / 180.0;
 const double k_icosahedron_edge = 2.0 / std::sqrt(1.0 + std::pow(0.5 * (1.0 + std::sqrt(5.0)), 2.0));  ///< divided by the radius of its sphere
-constexpr double k_sharp_degrees = 120.0;                                                              ///< angle of sharp edges in sterna and the default of
-                                                                                                       ///< pentagrow
+constexpr double k_sharp_degrees = 120.0;                                                              ///< angle of sharp edges in sterna, pentagrow's default
 
 std::string trimmed(std::string_view text) {
   const std::size_t first = text.find_first_not_of(" \t\r"), last = text.find_last_not_of(" \t\r");

@@ -105,8 +105,7 @@ void set_number_parameter(ScriptParameter& parameter, const std::string& text, T
   const bool is_bare = text.find_first_not_of("+-0123456789.eE") == std::string::npos;
   const double in_unit = is_bare ? *number : *number / parameter.unit_value;
   const std::string unit = parameter.unit.empty() ? "" : " " + parameter.unit;
-  const double slack = 1e-9 * std::max(std::abs(parameter.min.value_or(0.0)), std::abs(parameter.max.value_or(0.0)));  // tolerance, because 20deg equals 20
-                                                                                                                       // only up to rounding
+  const double slack = 1e-9 * std::max(std::abs(parameter.min.value_or(0.0)), std::abs(parameter.max.value_or(0.0)));  // 20deg is 20 up to rounding
   if (parameter.min && in_unit < *parameter.min - slack)
     reader.add_problem("argument " + parameter.name + "=" + text + ": " + number_text(in_unit, 6) + unit + " is below the minimum, " +
                        number_text(*parameter.min, 6) + unit);

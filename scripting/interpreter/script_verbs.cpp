@@ -251,8 +251,7 @@ ScriptValue check_mesh(const ScriptCall& call) {
   if (is_detailed) {
     call.session.print(check_text(report, mesh->mesh));
   } else {
-    call.session.print(check_summary_text(report, !is_known || wall));  // if the mesh was made in this run, the summary of volume_mesh has reported the worst
-                                                                        // values
+    call.session.print(check_summary_text(report, !is_known || wall));  // the summary of volume_mesh has already reported the worst values of a new mesh
     call.session.context.debug(to_text(report));
   }
   if (report.quality_measured && report.intersections_checked) mesh->check = report;

@@ -105,8 +105,7 @@ SurfaceValue cached_surface(const std::vector<ModelHandle>& models, const Surfac
   std::optional<ContentKey> key =
       reuse.cache ? beside_reference(surface_key_of(models, asked, static_cast<bool>(size), context), reuse, context) : std::nullopt;
   if (key && reference && !reference->is_this())
-    key = KeyMaker("call").add(*key).add(reference->surface()).key();  // results depend on the number of the call, because parts preferably start from those of
-                                                                       // the same call
+    key = KeyMaker("call").add(*key).add(reference->surface()).key();  // results depend on the call number, because parts prefer to start from the same call
   if (!reuse.cache || !key)
     return cached<SurfaceValue>(
         reuse, k_stage, {}, std::nullopt, context, [&] { return make(size); }, write_parts, std::function<SurfaceValue(ByteSource&)>());

@@ -137,8 +137,7 @@ void ModelWriter::content(const Surface& of) {
 }
 
 void ModelWriter::model(const Model& model) {
-  const auto& [components, corners, edges, faces, solids, source_unit, shape] = model;  // lists all members, so that a new member does not compile until it is
-                                                                                        // handled
+  const auto& [components, corners, edges, faces, solids, source_unit, shape] = model;  // lists all members, so that a new one does not compile until handled
   write_all(sink_, components, corners, solids, source_unit, shape != nullptr);
   write_value(sink_, static_cast<std::uint64_t>(edges.size()));
   for (const ModelEdge& edge : edges) {

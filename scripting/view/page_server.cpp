@@ -215,9 +215,7 @@ PageServer::PageServer(int port, Answer answer) : parts_(std::make_unique<Parts>
 }
 
 PageServer::~PageServer() {
-  while (!parts_->server.is_running())
-    std::this_thread::sleep_for(std::chrono::milliseconds(1));  // wait until the server runs, because an earlier stop()
-                                                                // would be lost
+  while (!parts_->server.is_running()) std::this_thread::sleep_for(std::chrono::milliseconds(1));  // an earlier stop() would be lost
   parts_->server.stop();
   parts_->thread.join();
 }

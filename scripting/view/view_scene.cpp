@@ -262,8 +262,7 @@ std::string mesh_scene(const MeshValue& value, const SceneOptions& options, cons
 
 bool is_drawable(const ScriptValue& value) {
   if (const auto* mesh = std::get_if<MeshHandle>(&value))
-    return count_cells((*mesh)->mesh).total() > 0;  // a mesh without cells is a surface file that was
-                                                    // read as a mesh
+    return count_cells((*mesh)->mesh).total() > 0;  // otherwise it is a surface file that was read as a mesh
   return std::holds_alternative<ModelHandle>(value) || std::holds_alternative<ComponentHandle>(value) || std::holds_alternative<SurfaceHandle>(value) ||
          std::holds_alternative<EnvelopeHandle>(value) || std::holds_alternative<TetrahedraHandle>(value);
 }
