@@ -100,7 +100,7 @@ void parallel_sort(const RunContext& context, std::vector<T>& values, const Less
 /// Runs two independent functions, possibly at the same time.
 void parallel_invoke(const RunContext& context, const std::function<void()>& f, const std::function<void()>& g);
 
-/// Sum with a running compensation (Neumaier 1974): error independent of the number of terms.
+/// Sum with a running compensation (Neumaier 1974), so that the error does not depend on the number of terms.
 class CompensatedSum {
  public:
   void add(double value) {

@@ -31,7 +31,7 @@ constexpr double k_fair_angle = 0.26;
 constexpr double k_flip_gain = 1e-3;
 /// rad; triangles with a smaller angle are processed individually: 12 degrees.
 constexpr double k_poor_angle = 0.21;
-/// cos of 1 degree: normals around a movable input vertex agree within it.
+/// cos of 1 degree, within which the normals around a movable input vertex agree.
 constexpr double k_flat = 0.99985;
 
 using StripVertex = std::uint32_t;
@@ -256,7 +256,7 @@ class StripRemesher {
       ++n_flipped_;
       return true;
     }
-    // Accept any result better than this triangle: the worst angle of its neighbourhood improves.
+    // Accepts any result that is better than this triangle, because the worst angle of its neighbourhood then improves.
     const double least = mesh_.min_angle(t) + k_flip_gain;
     for (const RankedEdge& edge : edges)
       if (collapse(edge.ends[0], edge.ends[1], least) || collapse(edge.ends[1], edge.ends[0], least)) return true;

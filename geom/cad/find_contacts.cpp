@@ -42,9 +42,9 @@ constexpr int k_rounds = 30;
 constexpr double k_standing = 1e-4;
 /// Longest side of the sampled pieces, relative to the part's longest side.
 constexpr double k_sample = 1.0 / 48.0;
-/// Direction of the rays of the inside test: not along any axis or plane commonly used in aircraft.
+/// Direction of the rays of the inside test. It lies along no axis and in no plane that is common in aircraft.
 constexpr Vec3 k_ray{0.2872, 0.5417, 0.7900};
-/// Ray hits nearer to each other than this, relative to the part's size, count once: a ray through an edge hits both of its triangles.
+/// Ray hits nearer to each other than this, relative to the part's size, count once, because a ray through an edge hits both of its triangles.
 constexpr double k_same_hit = 1e-12;
 /// Crossing pairs of facets per chunk.
 constexpr std::size_t k_chunk = 64;

@@ -175,7 +175,7 @@ struct SizeTask {
   }
   bool propose(const SurfaceTriangulation& mesh, TriangleId t, Proposal& proposal) const {
     const Triangle tri = gather(state, t);
-    // The shortest edge; in a front, the shortest edge of the target length.
+    // Selects the shortest edge; in a front, the shortest edge beside a finished triangle.
     std::size_t k = 3;
     for (std::uint32_t c = 0; c < 3; ++c)
       if ((k == 3 || tri.edge2[c] < tri.edge2[k]) && (!is_front || is_done(mesh.mesh.cells[t].twin[c]))) k = c;

@@ -70,7 +70,7 @@ struct Proposal {
 /// A Task has four functions. `void measure(surface, t)` is called if t is new or has changed, or one of its corners is new, always before any priority() of t
 /// and of its neighbours. `double priority(surface, t)` is not positive if t is good or cannot be improved; it is never called for flat triangles. `bool
 /// propose(surface, t, Proposal&)` returns false if it has no proposal. `void inserted(surface, p, proposal)` is called after an insertion.
-/// Criterion: as for insert_vertex. `Flips`: flip to the 3-D criterion after each insertion.
+/// The `Criterion` is that of insert_vertex. With `Flips`, edges are flipped to the 3-D criterion after each insertion.
 template <bool Flips, class Criterion, class Task>
 RefineReport refine(SurfaceTriangulation& surface, const Criterion& criterion, Task& task, std::size_t max_insertions, const RunContext& context) {
   constexpr std::size_t k_stop_interval = 4096;

@@ -17,7 +17,7 @@ namespace {
 
 /// Samples along each side of a pixel.
 constexpr int k_samples = 3;
-/// Pixels along a side of a tile: its samples (9 KB of depths and colours each) stay in the cache.
+/// Number of pixels along a side of a tile. A tile is so small that its 9216 samples, with a depth and a colour each, stay in the cache.
 constexpr int k_tile = 32;
 constexpr std::size_t k_polygon_chunk = 4096;
 /// Geometry nearer to the eye than this fraction of the distance is clipped.
@@ -208,7 +208,7 @@ class Tile {
     if (twice_area == 0.0 || !std::isfinite(twice_area)) return;
     std::array<Line, 3> lines;
     for (std::size_t k = 0; k < 3; ++k) lines[k] = line_of(t.x[k], t.y[k], t.x[(k + 1) % 3], t.y[(k + 1) % 3], twice_area < 0.0);
-    // Depth over the plane relative to corner 0: differences stay small, whatever the size of the scene.
+    // The depth is computed relative to corner 0, so that differences stay small, whatever the size of the scene.
     const double d1 = double{t.depth[1]} - t.depth[0], d2 = double{t.depth[2]} - t.depth[0];
     const double slope_x = (d1 * (double{t.y[2]} - t.y[0]) - d2 * (double{t.y[1]} - t.y[0])) / twice_area;
     const double slope_y = (d2 * (double{t.x[1]} - t.x[0]) - d1 * (double{t.x[2]} - t.x[0])) / twice_area;

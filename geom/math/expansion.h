@@ -19,7 +19,7 @@
 
 namespace sterna::exact {
 
-/// Unit roundoff: fl(x op y) = (x op y)(1 + d), |d| <= k_unit.
+/// Unit roundoff: a floating-point operation gives fl(x op y) = (x op y)(1 + d) with |d| <= k_unit.
 inline constexpr double k_unit = 0x1p-53;
 
 /// Computes sum and error so that sum + error == a + b exactly.

@@ -21,7 +21,8 @@ using Corners = std::array<Vec3, 3>;
 
 // ---------------------------------------------------------------- planar geometry
 
-/// Projects onto a coordinate plane: exact, as it only drops a coordinate. Mirrors depending on the axis; callers compensate by orienting their triangles.
+/// Projects onto a coordinate plane. This is exact, because it only drops a coordinate. For some axes the projection mirrors; callers compensate for that by
+/// orienting their triangles.
 Vec2 project(const Vec3& p, int axis) {
   if (axis == 0) return {p.y, p.z};
   return axis == 1 ? Vec2{p.x, p.z} : Vec2{p.x, p.y};

@@ -1,4 +1,4 @@
-// G2: all boundary faces and the envelope in one exact triangle-triangle test.
+// G2: tests all boundary faces and the envelope for crossings, in one exact triangle-triangle test.
 #include "geom/math/measures.h"
 #include "geom/math/predicates.h"
 #include "geom/mesh/check_parts.h"

@@ -17,8 +17,8 @@ namespace sterna::dual_parts {
 /// sub-tet's three vectors are at most that long, the third at most half as long. The rounding error of the formulas here, at most 64 units, is less than the
 /// difference. Sub-tets of a prism of aspect ratio 1e9 are still certain.
 inline constexpr double k_certain = 1e-13;
-/// Absolute part of that margin: this factor times the distance of the cell from the origin and the square of the size. Solvers round midpoints and centroids
-/// as coordinates, with an error of one to eight units of the distance each.
+/// Factor of the absolute part of that margin, which is the factor times the distance of the cell from the origin times the square of the size. Solvers round
+/// midpoints and centroids as coordinates, with an error of one to eight units of the distance each.
 inline constexpr double k_place_rounding = 32 * 0x1p-53;
 /// Returns the bound of six times the volume above which a sub-tet is certain. \p reach: distance of the corner from the origin; \p size2: square of the
 /// size.
@@ -54,7 +54,8 @@ class LineDual {
   std::vector<std::uint64_t> take_suspects() { return std::move(suspects_); }
 
  private:
-  /// Dual faces of one edge along the layer: the part from the prisms above, by layer, and the part from the prisms below, stored at their upper layer.
+  /// Dual faces of one edge along the layer, by layer. `above` is the part from the prisms above; `below` is the part from the prisms below, stored at their
+  /// upper layer.
   struct Slot {
     std::uint32_t line = 0;
     lanes::LineVectors above, below;
@@ -81,8 +82,8 @@ class LineDual {
 class NodeDual {
  public:
   NodeDual(const HybridMesh& mesh, const LineRings& rings);
-  /// Measures a node of a line (`line` valid) or off lines (NodeId::k_invalid). `cells`: explicit cells and boundary faces by common number, in the order of
-  /// `first_`.
+  /// Measures a node of a line (`line` valid) or off lines (NodeId::k_invalid). `cells` lists explicit cells and boundary faces by common number, in the order
+  /// of `first_`.
   NodeMetrics measure(std::uint32_t node, std::uint32_t line, std::span<const std::uint32_t> cells);
   std::vector<std::uint64_t> take_suspects() { return std::move(suspects_); }
 

@@ -28,7 +28,7 @@ namespace {
 
 using CornerIndices = std::array<std::uint32_t, 3>;
 
-/// Number of boxes in a packet, triangles in a leaf, children of a node: one vector register of floats.
+/// Number of boxes in a packet, of triangles in a leaf and of children of a node. This many floats fill one vector register.
 constexpr std::size_t k_leaf_width = 8;
 /// Leaves per task: about 1 ms.
 constexpr std::size_t k_chunk = 128;
@@ -222,7 +222,7 @@ Pair gather(std::span<const Vec3> points, const CornerIndices& a, const CornerIn
 /// on the other. Common points then project onto the shared corners; since `a` has area in the projection, they are the shared corners.
 bool edge_separates(const std::array<const Vec3*, 3>& a, const std::array<const Vec3*, 3>& b, std::size_t n_shared, std::size_t u, std::size_t v) {
   constexpr std::size_t k_edge[3][3] = {{0, 1, 2}, {0, 2, 1}, {1, 2, 0}};
-  // Candidate edges by the number of shared corners: all three edges for none, two edges for corner 0, one edge for corners 0 and 1.
+  // The candidates are all three edges if no corner is shared, two edges if corner 0 is shared, and one edge if corners 0 and 1 are shared.
   for (std::size_t e = 0; e < 3 - n_shared; ++e) {
     const Vec3 &from = *a[k_edge[e][0]], &to = *a[k_edge[e][1]];
     const int side = sure_turn(from, to, *a[k_edge[e][2]], u, v);

@@ -234,7 +234,7 @@ std::optional<Forcing> GivenLayer::orthogonality(NodeId node, double limit) cons
   }
   const double size = norm(sum);
   if (!(size > 2.0 * error)) return std::nullopt;
-  // For any multipliers m >= 0 and any unit step s with s . n_i >= -slack: s . v <= |v + sum m_i n_i| + slack sum m_i.
+  // s . v <= |v + sum m_i n_i| + slack sum m_i holds for any multipliers m >= 0 and any unit step s with s . n_i >= -slack.
   Vec3 rest = sum / size;
   std::vector<double> multipliers(normals.size(), 0.0);
   for (int sweep = 0; sweep < k_multiplier_sweeps; ++sweep)

@@ -199,8 +199,8 @@ struct GateResult {
 /// MeasureInfo::fail_share is beyond it, or if the limit is the user's own; otherwise it warns. Returns not_checked if the consumer does not use the measure.
 GateState state_for(const GateResult& gate, Consumer consumer);
 
-/// Running statistics of one measure: weight within the usual limit, and the worst items. The result of merging does not depend on how items were distributed
-/// to the parts, except for the rounding of non-integer weights.
+/// Running statistics of one measure, which collect the weight within the usual limit and the worst items. The result of merging does not depend on how items
+/// were distributed to the parts, except for the rounding of non-integer weights.
 class GateScan {
  public:
   static constexpr std::size_t k_most_places = 10;

@@ -225,7 +225,7 @@ class Cutter {
     const auto d = distances(cutting_, t);
     if (!is_kept_in_part(d)) return;
     const TriangleVertices& v = cutting_.mesh.triangles[t];
-    // The polygon above the plane, in the triangle's sense; three or four corners.
+    // The polygon above the plane has three or four corners, in the order of the triangle.
     std::array<VertexId, 4> corner;
     std::size_t n = 0;
     for (std::size_t k = 0; k < 3; ++k) {

@@ -113,7 +113,7 @@ struct LayerBlock {
   Side side(std::size_t column, std::size_t corner, int layer) const;
 };
 
-/// Layer request: reference for the measured first height, growth and coverage. Unknown for a mesh that was read from a file.
+/// The requested layer, with which the measured first height, growth and coverage are compared. It is unknown for a mesh that was read from a file.
 struct LayerRequest {
   double first_height = 0.0;                ///< m; 0 = unknown; the smallest of all lines if they differ
   double max_growth = 0.0;                  ///< largest ratio of heights of consecutive cells; the largest of all lines if they differ

@@ -256,7 +256,7 @@ void snap(std::vector<Deflection>& deflections, const WingSpan& span) {
     }
 }
 
-/// Returns one end of the moving part of an open surface (moving_to() the other end); at a tip there is no gap.
+/// moving_from() and moving_to() return the two ends of the moving part of an open surface. There is no gap at a tip.
 double moving_from(const Reach& reach) { return reach.from > 0.0 ? reach.from + reach.end_gap : 0.0; }
 double moving_to(const Reach& reach) { return reach.to < 1.0 ? reach.to - reach.end_gap : 1.0; }
 

@@ -1,5 +1,5 @@
-// Cubic and linear splines through points: curves, and surfaces through grids of points (docs/method/surface.md, "Parametric surfaces": bicubic and
-// linear-cubic splines), exact as NURBS. The parameter runs over [0, 1] unless the parameters of the points are given.
+// Cubic and linear splines as curves through points and as surfaces through grids of points (docs/method/surface.md, "Parametric surfaces": bicubic and
+// linear-cubic splines). NURBS represent them exactly. The parameter runs over [0, 1] unless the parameters of the points are given.
 #pragma once
 
 #include <cstddef>

@@ -45,7 +45,7 @@ class BulkInserter {
   /// Marks of each slot for the caller's use, 0 for each new tetrahedron. Slots without tetrahedron may have any value.
   std::vector<std::uint8_t>& state() { return state_; }
   const std::vector<std::uint8_t>& state() const { return state_; }
-  /// One flag for each chunk of k_chunk slots: true if the chunk may contain new tetrahedra. Initially set for all chunks; the caller resets it.
+  /// One flag for each chunk of k_chunk slots: true if the chunk may contain new tetrahedra. All flags are true at first; the caller resets them.
   std::vector<std::uint8_t>& is_changed() { return is_changed_; }
   std::int64_t n_serial() const { return n_serial_; }  ///< seeds that no block could insert; for reports
 

@@ -53,7 +53,7 @@ VtuArray vtu_array(std::string name, const std::vector<std::int32_t>& values);
 /// \throws Error write_failed, cancelled, and errors of fill functions.
 void write_vtu(const VtuDocument& document, const std::filesystem::path& path, const RunContext& context);
 
-/// Fastest level: a mesh shrinks to about 40 %; level 6 gains a few percent more at five times the time.
+/// The fastest level, which shrinks a mesh to about 40 %. Level 6 gains a few percent more and takes five times as long.
 inline constexpr int k_zlib_level = 1;
 /// Bytes per compressed block; a multiple of 24, so that points and values do not cross block boundaries.
 inline constexpr std::size_t k_vtu_block = 3u << 19;

@@ -82,7 +82,7 @@ void parse_face(TextScanner& scanner, std::size_t n_points, HighestIndex& highes
   faces.ends.push_back(faces.corners.size());
 }
 
-/// Chooses the names for the patches: groups; if groups make no difference, objects; if objects make none either, materials.
+/// Chooses the source of the names of patches: the first of groups, objects and materials with more than one name, else the first with one name.
 const std::vector<NameChange>* choose_naming(const Faces& faces) {
   const std::vector<NameChange>* first_with_name = nullptr;
   for (const std::vector<NameChange>& changes : faces.changes) {

@@ -63,7 +63,8 @@ struct SternaContent {
   std::string names() const;
 };
 
-/// Writes the parts. Streams in chunks packed in parallel: below 200 MB in addition to the parts. The bytes do not depend on the number of threads.
+/// Writes the parts. Packs chunks in parallel and streams them, which takes less than 200 MB in addition to the parts. The bytes do not depend on the number of
+/// threads.
 /// \throws Error mesh_invalid (columns whose lengths differ from their mesh, coordinates that are not finite), write_failed, cancelled
 void write_sterna(const SternaParts& parts, const std::filesystem::path& path, const RunContext& context);
 

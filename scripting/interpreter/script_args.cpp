@@ -21,7 +21,7 @@ namespace {
 constexpr std::string_view k_script_args_usage = "local p = args{ alpha = 0, half = false, name = \"polar\" }";
 constexpr std::string_view k_number_usage =
     "args{ span = number{ 10, min = 6, max = 20, unit = m }, alpha = number{ 4, min = -5, max = 15, step = 0.5, unit = deg } }";
-/// Field of the table returned by number{}: distinguishes it from tables of the script.
+/// Field of the table returned by number{}, by which that table is distinguished from tables of the script.
 constexpr const char* k_number_mark = "argument";
 
 bool is_name(std::string_view text) {

@@ -120,7 +120,7 @@ Repaired repaired_of(std::span<const UnionItem> items, const surfmesh::StitchOpt
 }
 
 /// Reads a surface that is sound: closed, or open in planes of the domain only.
-/// \throws Error of read_wall, of the closed surface
+/// \throws Error of read_wall; also for a surface that is not closed
 SurfaceValue read_as_it_is(std::span<const InputPath> files, const surfmesh::StitchOptions& stitching, const RunContext& context) {
   const WallFiles read = read_wall_files(files, stitching, context.part("read", 0.0, k_files_read_end));
   try {

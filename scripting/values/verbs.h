@@ -113,7 +113,7 @@ using UnionItem = std::variant<SurfaceHandle, InputPath>;
 SurfaceValue unite_surfaces(std::span<const UnionItem> items, double unit, const UnionOptions& options, const RunContext& context);
 
 /// Reads a volume mesh, with the data of the manifest beside it (mesh_manifest.h). Patches of unknown kind give a warning. Every command and verb that takes a
-/// volume mesh reads it here. `incomplete`: treatment of boundary faces that the file lacks.
+/// volume mesh reads it here. `incomplete` decides how boundary faces that the file lacks are treated.
 /// \throws Error of io, file_malformed of a manifest.
 MeshValue read_mesh(const InputPath& file, const RunContext& context, io::Incomplete incomplete = io::Incomplete::kept);
 
