@@ -170,7 +170,7 @@ double size_of(const Model& model) {
   return std::max({high.x - low.x, high.y - low.y, high.z - low.z});
 }
 
-/// Largest error of refitting, relative to the longest side: a tenth of the sewing tolerance of other programs.
+/// Largest error of refitting, relative to the longest side. It is a tenth of the sewing tolerance of other programs.
 constexpr double k_refit_share = 1e-6;
 
 Model exact_for_export(const Model& model, const std::string& name, const WriteCadOptions& options, const RunContext& context) {

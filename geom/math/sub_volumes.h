@@ -9,9 +9,9 @@
 namespace sterna {
 
 /// Returns the sign of the volume of (corner, midpoint of corner-next, centroid of the face, centroid of the cell). The face runs corner, next, others..., with
-/// its right-hand normal out of the cell; `rest` are the cell's nodes off the face. The sub-tet at `next` has the same volume. Only the node sums matter: 48 V
-/// = -det(next, sum of others, sum of rest) relative to the corner, times positive factors. Exact: floating point with a forward error bound, undecided cases
-/// by expansions.
+/// its right-hand normal out of the cell; `rest` are the cell's nodes off the face. The sub-tet at `next` has the same volume. The volume depends only on the
+/// sums of nodes: relative to the corner, 48 V = -det(next, sum of others, sum of rest), times positive factors. The sign is exact: floating point with a
+/// forward error bound decides most cases, expansions decide the others.
 /// \pre 1 or 2 others, 1 to 4 rest; finite coordinates, range as for orient3d.
 int sub_volume_sign(const Vec3& corner, const Vec3& next, std::span<const Vec3> others, std::span<const Vec3> rest);
 

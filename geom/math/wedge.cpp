@@ -1,13 +1,13 @@
-// The wedge (prism with bilinear sides): exact validity test, volume, quality.
+// Tests the validity of the wedge (prism with bilinear sides) exactly, and computes its volume and quality.
 //
 // With a, b the edges 0-1, 0-2 of the base, a', b' those of the top, and d_k the growth edges, the Jacobian of the trilinear map at height z
 // over corner k is N(z) . d_k with N(z) = (a + z (a' - a)) x (b + z (b' - b)). In Bernstein form over z its coefficients are
 //   b0 = (a x b) . d_k,   2 b1 = (a x b' + a' x b) . d_k,   b2 = (a' x b') . d_k,
 // which are the b0, b1, b2 of docs/method/validity.md, "Exact wedge test", free of cancelling terms. The Jacobian is positive along the growth edge iff b0 > 0,
-// b2 > 0 and (b1 >= 0 or b1^2 < b0 b2); linear in between the growth edges, so positive everywhere iff positive along all three.
+// b2 > 0 and (b1 >= 0 or b1^2 < b0 b2). It is linear between the growth edges, so it is positive everywhere iff it is positive along all three.
 //
-// Filter: only differences of coordinates are used, and a rounded difference is within one unit roundoff of the exact one relative to itself, however flat the
-// wedge is and however far from the origin. A prism of height 1e-6 times its edges is therefore decided here unless it is nearly inverted.
+// The floating-point filter uses only differences of coordinates, and a rounded difference is within one unit roundoff of the exact one relative to itself,
+// however flat the wedge is and however far from the origin. A prism of height 1e-6 times its edges is therefore decided here unless it is nearly inverted.
 #include <algorithm>
 #include <array>
 #include <limits>

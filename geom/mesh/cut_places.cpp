@@ -25,7 +25,7 @@ constexpr double k_plate_thickness = 1e-3;
 constexpr double k_least_chord = 0.3;
 /// Edges that turn by more than this angle are sharp, radians.
 constexpr double k_sharp_cut = std::numbers::pi / 6.0;
-/// Distance of the cut from the symmetry plane, inwards, over the walls' longest side: above the rounding of coordinates, far below an edge length.
+/// Distance of the cut from the symmetry plane, inwards, over the walls' longest side. It is above the rounding of coordinates and far below an edge length.
 constexpr double k_hair = 1e-7;
 /// Radius of the region of interest around a focus: k_layers_seen times the layer height, and at least k_edges_seen times the wall edge length.
 constexpr double k_layers_seen = 3.0, k_edges_seen = 6.0;

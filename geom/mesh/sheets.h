@@ -12,8 +12,8 @@ namespace sterna {
 
 inline constexpr std::uint32_t k_no_side = 0xffffffffu;
 
-/// For each boundary face of a mesh (triangles, then quadrilaterals): the face of opposite sense that coincides with it, corner on corner to the bit; k_no_side
-/// for other faces. Empty if there are no such faces. Considers only patches of kind interface. Serial, O(n log n) in the number of their faces.
+/// Stores for each boundary face of a mesh (triangles, then quadrilaterals) the face of opposite sense whose corners coincide with its corners to the bit, or
+/// k_no_side if there is none. Empty if no faces coincide. Considers only patches of kind interface. Serial, O(n log n) in the number of their faces.
 struct SheetSides {
   std::vector<std::uint32_t> other_side;  ///< per face
   std::vector<std::uint32_t> twin;        ///< per node: itself, or the coincident node of the first side (the side with the smaller number)

@@ -1,5 +1,5 @@
-// An aircraft as data, as described by .smx and CPACS files and scripts, before any surface is built from it. Plain structs; metres, radians, x aft, y to the
-// right wing, z up.
+// An aircraft as data, as described by .smx and CPACS files and scripts, before any surface is built from it. The data are plain structs in metres and radians,
+// with x aft, y to the right wing and z up.
 #pragma once
 
 #include <cstdint>

@@ -12,7 +12,7 @@ namespace sterna {
 namespace {
 
 constexpr double k_turn = 2.0 * std::numbers::pi;
-/// Tolerance of a full turn, relative to it: rounding of angles in files.
+/// Relative tolerance of a full turn. It covers the rounding of angles in files.
 constexpr double k_same_turn = 1e-12;
 /// Cosine of the angle between the axes of an ellipse below which they count as orthogonal.
 constexpr double k_right_angle = 1e-9;

@@ -23,7 +23,7 @@ constexpr std::array<double, 6> k_weights = {0.085662246189585178, 0.18038078652
 /// Gauss-Legendre exact to degree 3, for a first estimate.
 constexpr std::array<double, 2> k_few_nodes = {0.21132486540518713, 0.78867513459481287};
 constexpr std::array<double, 2> k_few_weights = {0.5, 0.5};
-/// Number of pieces of a direction without knots: integrates sines and cosines over a full turn to rounding.
+/// Number of pieces of a direction without knots. With this number, sines and cosines over a full turn are integrated up to rounding.
 constexpr int k_plain_pieces = 12;
 /// Parts of an interval between knots if the pieces are not polynomials of degree 3 or less.
 constexpr int k_parts = 3;

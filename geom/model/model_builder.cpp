@@ -15,9 +15,9 @@
 namespace sterna {
 namespace {
 
-/// Largest distance of an edge from its surface, relative to the size, if both come from the same numbers: covers rounding of evaluators.
+/// Largest distance of an edge from its surface, relative to the size, if both come from the same numbers. It covers the rounding of evaluators.
 constexpr double k_off_surface = 1e-9;
-/// Allowed distance of a planar border from its plane, relative to its size: rounding of rotations.
+/// Allowed distance of a planar border from its plane, relative to its size. It covers the rounding of rotations.
 constexpr double k_off_plane = 1e-9;
 
 [[noreturn]] void refuse_model(ErrorCode code, const std::string& problem, std::vector<ErrorPlace> places = {}) {

@@ -27,8 +27,8 @@ struct Interval {
   friend constexpr bool operator==(const Interval&, const Interval&) = default;
 };
 
-/// NURBS curve with clamped, non-periodic knots: knots.size() == poles.size() + degree + 1; knots ascend, and the first and the last one occur degree + 1
-/// times. The domain is [knots[degree], knots[poles.size()]]. `P` is Point (curve in space) or Uv (curve in a parameter plane).
+/// NURBS curve with clamped, non-periodic knots. There are poles.size() + degree + 1 knots. They ascend, and the first and the last one occur degree + 1 times.
+/// The domain is [knots[degree], knots[poles.size()]]. `P` is Point (curve in space) or Uv (curve in a parameter plane).
 template <class P>
 struct NurbsCurveForm {
   int degree = 1;

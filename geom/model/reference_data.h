@@ -7,10 +7,10 @@
 
 namespace sterna {
 
-/// Reference data of a wing, from its sections; both halves of a symmetric wing count. Leading and trailing edges are straight between sections. The span is
-/// along y for wings and V tails, along z for wings that are higher than wide, such as fins. Area, chords and aspect ratio are those of the planform projected
-/// onto the plane of x and the span direction, as in published wing areas: dihedral shortens span and area by the same factor, and a vertical winglet adds
-/// nothing to either.
+/// Reference data of a wing, computed from its sections. They include both halves of a symmetric wing. Leading and trailing edges are straight between
+/// sections. The span is along y for wings and V tails, along z for wings that are higher than wide, such as fins. Area, chords and aspect ratio are those of
+/// the planform projected onto the plane of x and the span direction, as in published wing areas: dihedral shortens span and area by the same factor, and a
+/// vertical winglet adds nothing to either.
 struct WingReference {
   std::string name;
   double span = 0.0;                    ///< extent of the section chords along the span direction, m

@@ -18,8 +18,8 @@ Model make_box(const std::string& name, const Point& from, const Point& to);
 /// \throws Error(bad_argument) if its length or radius is zero
 Model make_cylinder(const std::string& name, const Point& from, const Point& to, double radius);
 
-/// Wind-tunnel test section around the x axis, with the fluid inside and the model at the origin. Rectangular (width, height: walls <wall>_floor, <wall>_right
-/// at starboard, <wall>_ceiling and <wall>_left), or round (diameter: one wall).
+/// Wind-tunnel test section around the x axis, with the fluid inside and the model at the origin. The section is rectangular (width and height given), with the
+/// walls <wall>_floor, <wall>_right at starboard, <wall>_ceiling and <wall>_left, or round (diameter given), with one wall.
 struct TestSectionOptions {
   double length = k_automatic;
   double width = k_automatic;

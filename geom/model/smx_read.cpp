@@ -15,9 +15,9 @@
 namespace sterna {
 namespace {
 
-/// A polyline that turns by more reverses its direction: sumo rejects it too.
+/// A polyline that turns by more than this angle reverses its direction. sumo rejects it, too.
 constexpr double k_max_turn = 175.0 * k_degree;
-/// Normalised frame points with a smaller deviation are accurate within the 6 digits of files, and are not moved: otherwise the shape would change at every
+/// Normalised frame points with a smaller deviation are accurate within the 6 digits of files, and are not moved. Otherwise the shape would change at every
 /// save.
 constexpr double k_normal_slack = 2e-6;
 /// Points closer than this, relative to a unit section, are one repeated point.

@@ -13,7 +13,7 @@ namespace sterna {
 namespace {
 
 constexpr double k_sweep_turn = 2.0 * std::numbers::pi;
-/// Tolerance of a full period, relative to it: rounding of angles in files.
+/// Relative tolerance of a full period. It covers the rounding of angles in files.
 constexpr double k_whole_period = 1e-12;
 
 void check_range(Interval range, const char* attempted) {

@@ -64,8 +64,8 @@ class MeshFaces {
   /// Counts the internal faces whose lower cell is below `cell`.
   Count internal_before(std::uint64_t cell) const;
 
-  /// Calls f(cell, face) for the internal faces whose lower cell is in [begin, end), oriented as seen from that cell. Order: by lower cell, then by the other
-  /// cell ("upper triangular").
+  /// Calls f(cell, face) for the internal faces whose lower cell is in [begin, end), oriented as seen from that cell. The faces are ordered by lower cell, then
+  /// by the other cell ("upper triangular").
   template <class F>
   void for_each_internal(std::uint64_t begin, std::uint64_t end, const F& f) const {
     std::array<CellFace, k_most_faces> faces;

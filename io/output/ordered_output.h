@@ -49,7 +49,7 @@ void write_ordered(const TakeBytes& take, std::size_t n_chunks, const FillChunk&
 /// \throws as the overload above; errors of AtomicFile::append
 void write_ordered(AtomicFile& file, std::size_t n_chunks, const FillChunk& fill, const RunContext& context);
 
-/// Number of chunks per batch: enough for 16 threads, and with buffers of 0.3 - 1.6 MB below 100 MB in total.
+/// Number of chunks per batch. It is enough for 16 threads, and buffers of 0.3 - 1.6 MB take less than 100 MB in total.
 inline constexpr std::size_t k_batch_chunks = 32;
 
 }  // namespace sterna::io

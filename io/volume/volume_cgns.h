@@ -13,7 +13,7 @@ namespace sterna::io {
 /// TETRA_4 (if there are such cells). Every patch with faces has a section of triangles named as the patch, a section of quads ("<patch>_quad" if it has both),
 /// a BC_t "FamilySpecified" over both, and a family with the kind. Lengths are in metres. A mesh without cells is a surface: its base has two dimensions. Names
 /// that CGNS does not accept (longer than 32 bytes, with '/', repeated) are changed with a warning; the family stores the full name. HDF5 uses 64-bit integers
-/// where 32 bits do not suffice. Streams: below 100 MB of memory in addition to the mesh.
+/// where 32 bits do not suffice. The file is streamed, which takes less than 100 MB of memory in addition to the mesh.
 /// \throws Error overflow (ADF: a number beyond 2^31-1), mesh_invalid, write_failed, cancelled.
 void write_volume_cgns(const HybridMesh& mesh, const std::filesystem::path& path, const RunContext& context);
 

@@ -53,8 +53,8 @@ ContentKey triangles_key(const TriMesh& mesh);
 /// Returns the key of the triangles with their patches, names and kinds.
 ContentKey connectivity_of(const TriMesh& mesh);
 
-/// The link between a running case and the reference of its series. The reference itself collects data; other cases read them. Lives as long as the case; used
-/// by one thread.
+/// The link between a running case and the reference of its series. The reference itself collects data; other cases read them. The object lives as long as the
+/// case and is used by one thread.
 class ReferenceUse {
  public:
   ReferenceUse(std::string name, std::filesystem::path file, bool is_this) : name_(std::move(name)), file_(std::move(file)), is_this_(is_this) {}
