@@ -60,7 +60,7 @@ struct HelperStart {
   HelperTask task;
   std::string path;                    ///< path of the executable
   std::vector<std::string> arguments;  ///< arguments without the program's name
-  LateData late;                       ///< empty = none; called repeatedly; an exception that it throws ends the helper and is rethrown by run_helper
+  LateData late;                       ///< called repeatedly unless empty; an exception that it throws ends the helper and is rethrown by run_helper
   double time_limit = 0.0;             ///< seconds of wall time; k_automatic = none
 };
 

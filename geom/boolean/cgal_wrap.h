@@ -18,7 +18,7 @@ struct WrapSurface {
 struct AlphaWrapInput {
   std::vector<Vec3> points;                             ///< m; finite
   std::vector<std::array<std::uint32_t, 3>> triangles;  ///< indices in range; triangles of zero area are ignored
-  double alpha = 0.0;                                   ///< m; radius of a ball that rolls around the soup: regions that it cannot enter are inside
+  double alpha = 0.0;                                   ///< m; radius of a ball that rolls around the soup; regions that the ball cannot enter are inside
   double offset = 0.0;                                  ///< m; distance of the wrap's vertices from the soup
   std::vector<Vec3> seeds;                              ///< points in cavities to be wrapped from inside; empty: the soup is wrapped from outside
   std::int64_t expected_points = 0;                     ///< for the progress report

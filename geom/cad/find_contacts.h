@@ -20,11 +20,11 @@ enum class ContactKind {
 std::string_view to_string(ContactKind kind);
 
 struct PartContact {
-  std::size_t first = 0, second = 0;  ///< numbers of the parts; inside: `first` lies in `second`; apart: `first` is in the smaller group
+  std::size_t first = 0, second = 0;  ///< numbers of the parts; for `inside`, `first` lies in `second`; for `apart`, `first` is in the smaller group
   ContactKind kind = ContactKind::crossing;
-  Point place;                   ///< crossing: location of the smallest angle; else of the smallest distance; inside: a point of `first`
-  double angle = 0.0;            ///< crossing: smallest angle between the tangent planes, radians
-  bool is_crevice = false;       ///< crossing: the fluid is in the narrow angle between the surfaces; else they blend into each other
+  Point place;         ///< location of the smallest angle (crossing), a point of `first` (inside), or the location of the smallest distance (other contacts)
+  double angle = 0.0;  ///< crossing: smallest angle between the tangent planes, radians
+  bool is_crevice = false;       ///< for a crossing: true if the fluid is in the narrow angle between the surfaces, false if they blend into each other
   double gap = 0.0;              ///< apart: smallest distance, metres
   double share_inside = 0.0;     ///< crossing: fraction of the area inside the other part, for the part with the larger fraction
   bool is_first_inside = false;  ///< crossing: `share_inside` refers to `first`

@@ -252,8 +252,8 @@ PermittedHeights permitted_heights(const HybridMesh& mesh, const LayerLines& lin
 /// Areas of one patch by state of the layer.
 struct PatchAreas {
   double full = 0.0, reduced = 0.0, compressed = 0.0, collapsed = 0.0, attainable = 0.0, attained = 0.0;
-  double asked = 0.0, covered = 0.0;  ///< m^2: area with a requested boundary layer; area where the line covers its thickness, or as much of it as the geometry
-                                      ///< permits
+  double asked = 0.0, covered = 0.0;  ///< m^2; `asked`: area with a requested boundary layer; `covered`: area where the line covers the thickness of that
+                                      ///< layer, or as much of it as the geometry permits
   std::map<std::string, double> lost;
   double total() const { return full + reduced + compressed + collapsed; }
   void add(const PatchAreas& more) {

@@ -45,7 +45,7 @@ enum class Measure : std::uint8_t {
   face_tets,                 ///< OpenFOAM's, per face: quality of the worst tet into which it and its cells are cut
   stacked_orthogonality,     ///< non_orthogonality between two prisms of one column, caused by different height proportions at their corners
   stacked_skewness,          ///< skewness of the same faces
-  cell_determinant,          ///< OpenFOAM's, per cell: determinant of the tensor of its inner faces, 1 for a cube; reported only
+  cell_determinant,          ///< OpenFOAM's measure of a cell: determinant of the tensor of its inner faces, which is 1 for a cube; only reported
   cad_distance,              ///< G17: distance of a wall node from the model, over the body length (surfmesh/model/deviation.h)
   cad_normal,                ///< G18: facet normal against the model normal at the facet's centroid (same source)
 };

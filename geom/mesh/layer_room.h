@@ -22,8 +22,8 @@ inline constexpr double k_kept_share = 0.5;
 struct FacingTriangle {
   std::array<Point, 3> corners;         ///< right-hand normal into the fluid
   std::array<std::uint32_t, 3> feet{};  ///< lines on its corners, or k_no_foot
-  double asked = 0.0;                   ///< m, largest requested height at its corners; 0: the triangle carries no layer, and its orientation is ignored
-  double edge = 0.0;                    ///< m, mean edge of the envelope above it
+  double asked = 0.0;  ///< m, largest requested height at the corners of the triangle; 0 if it carries no layer, and then its orientation is ignored
+  double edge = 0.0;   ///< m, mean edge of the envelope above it
   static constexpr std::uint32_t k_no_foot = 0xffffffffu;
 };
 

@@ -206,7 +206,7 @@ struct CowlNacelle {
 // ---------------------------------------------------------------------------------------------------------------------- systems
 
 struct HingePoint {
-  double span = 0.0;   ///< fraction of the wing's length along the mid-chord line: 0 right tip .. 1 left tip; beyond the ends: over the tip
+  double span = 0.0;   ///< fraction of the wing's length along the mid-chord line, from 0 at the right tip to 1 at the left tip; values beyond are over the tip
   double chord = 0.0;  ///< fraction from the leading edge
   friend bool operator==(const HingePoint&, const HingePoint&) = default;
 };
@@ -215,7 +215,7 @@ struct ControlSurface {
   std::string wing;
   ControlKind kind = ControlKind::trailing_edge;
   std::vector<HingePoint> hinge;  ///< at least 2, by ascending span; if there are several segments between them, they are named <name>Segment0, 1, ...
-  bool has_image = false;         ///< an image exists on the wing's other half or on its mirror image; false: the file describes that surface separately
+  bool has_image = false;  ///< true if an image exists on the wing's other half or on its mirror image; false if the file describes that surface separately
   friend bool operator==(const ControlSurface&, const ControlSurface&) = default;
 };
 

@@ -52,7 +52,7 @@ struct MeshCommand {
   bool is_half = false;               ///< the surface is cut to its half
   bool is_repaired = false;           ///< --repair: the files are repaired first
   bool is_wrapped = false;            ///< --wrap: the files are wrapped first
-  bool is_auto = false;               ///< --auto: files are used as they are, else repaired, else wrapped; remeshed if their triangles are slivers
+  bool is_auto = false;               ///< --auto: files are used as they are, or repaired, or wrapped; if triangles are slivers, they are remeshed
   OptionOverrides half;               ///< --set half.axis=z; only with is_half
   bool is_remeshed = false;           ///< the surface is remeshed first
   OptionOverrides remesh;             ///< --set remesh.max_edge=0.1; only with is_remeshed

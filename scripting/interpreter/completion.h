@@ -11,7 +11,8 @@ namespace sterna::scripting {
 
 struct Completion {
   std::size_t start = 0;                ///< start of the completed word
-  std::vector<std::string> candidates;  ///< whole words, sorted; within a string: names of patches if patches are expected, else none (then file names)
+  std::vector<std::string> candidates;  ///< whole words, sorted. Within a string they are names of patches if patches are expected; otherwise there are none,
+                                        ///< and file names are completed
   bool is_text = false;                 ///< within quotes
 };
 

@@ -34,7 +34,7 @@ struct ScriptSession {
   OptionOverrides overrides;                      ///< options of the command line; they win over the script
   std::function<void(std::string_view)> print;    ///< receives results
   std::function<void(const MeshValue&)> on_mesh;  ///< called for every volume mesh made; may be empty
-  const StageCache* cache = nullptr;              ///< results of stages by their inputs' content; null: everything is recomputed
+  const StageCache* cache = nullptr;              ///< results of stages by the content of their inputs; null if everything is recomputed
   std::vector<std::string> reused = {};           ///< a line for each stage that was taken from the cache or started from a reference: "surface_mesh of body"
   ErrorHandle cancelled;                          ///< allocated in advance, because the hook that raises it must not allocate
   OptionOverrides arguments = {};                 ///< NAME=VALUE of the command line, for args

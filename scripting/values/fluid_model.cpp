@@ -247,8 +247,8 @@ namespace {
 
 /// Reports asymmetry in the same way as half_of does for surfaces.
 void tell_asymmetry(const Model& model, const HalfModelOptions& options, const RunContext& context) {
-  constexpr double k_tolerance = 5e-5, k_clear = 4.0;  // relative to the longest side: distance of facets from the surface (their corners are on it); only gaps
-                                                       // above k_clear times that are reported
+  constexpr double k_tolerance = 5e-5, k_clear = 4.0;  // k_tolerance is the distance of facets from the surface (their corners are on it), relative to the
+                                                       // longest side; gaps above k_clear * k_tolerance are reported
   const surfmesh::ModelFacets facets = surfmesh::facets_of(model, {.tolerance = k_tolerance}, context);
   TriMesh drawn;
   drawn.patches.push_back({.name = "model"});

@@ -58,7 +58,7 @@ struct SurfaceValue {
   std::optional<surfmesh::SurfaceMeshReport> mesh_report = {};  ///< set for a surface made by surface_mesh, unless it was read from a file
   std::optional<double> smooth_angle = {};  ///< rad; largest turn where the surface is smooth, from surface_mesh or from the manifest beside the file
   std::vector<volmesh::PatchRule> layers =
-      {};  ///< layer rules for patches by the makers of the model, in order; the last rule of a name applies; the user's own rules come after them
+      {};  ///< layer rules for patches, set by the makers of the model, in order. The last rule for a name applies, and the user's own rules come after these
   std::shared_ptr<const surfmesh::ModelWall> model_wall = {};  ///< set for a surface made by surface_mesh in this run: gives the positions of new vertices
   std::vector<volmesh::PlacedPart> parts = {};    ///< parts meshed or read elsewhere and moved to their locations; in ascending order of their triangles
   std::optional<ContentKey> model_wall_key = {};  ///< key of the data of model_wall, for caches
