@@ -224,7 +224,7 @@ class StripRemesher {
 
   bool flip(const EdgeEnds& e) { return !mesh_.is_kept_edge(e[0], e[1]) && mesh_.flip(e[0], e[1], k_flip_gain, tolerance(e[0], e[1])); }
 
-  /// Returns true if the vertex may move. An input vertex may move only in a plane: elsewhere it defines the shape.
+  /// Returns true if the vertex may move. An input vertex may move only in a plane, because elsewhere it defines the shape.
   bool is_free(StripVertex v) const {
     if (mesh_.star[v].empty() || !may_change(v) || curve_[v]) return false;
     const StripTriangle& first = mesh_.triangles[mesh_.star[v].front()];

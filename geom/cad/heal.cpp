@@ -35,8 +35,8 @@
 namespace sterna::cad {
 namespace {
 
-/// Gaps that sewing tries to close if the user sets no tolerance, relative to the longest side. Starts at the resolution of common modellers; 1e-5 of an
-/// airliner is 0.6 mm: larger tolerances would sew thin trailing edges together.
+/// Gaps that sewing tries to close if the user sets no tolerance, relative to the longest side. The first one is the resolution of common modellers. The last
+/// one is 0.6 mm for an airliner; larger tolerances would sew thin trailing edges together.
 constexpr std::array<double, 3> k_sew_ladder = {1e-7, 1e-6, 1e-5};
 /// Sewing beyond this fraction of the shortest edge merges its two ends.
 constexpr double k_sew_of_shortest_edge = 0.25;

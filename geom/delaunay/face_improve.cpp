@@ -12,7 +12,7 @@ namespace {
 constexpr double k_short = 0.5;
 /// Cotangent of 30 degrees: smallest angle that a collapse may create.
 constexpr double k_collapse_cotangent = 1.732;
-/// Cotangent of 25 degrees: a vertex with a smaller angle is removed if that improves its neighbourhood.
+/// Cotangent of 25 degrees. A vertex with a smaller angle is removed if that improves its neighbourhood.
 constexpr double k_steep_cotangent = 2.14;
 /// Cotangent of 42 degrees: below this angle a move must increase the smallest angle of a star, above it only the mean shape.
 constexpr double k_poor_cotangent = 1.11;

@@ -136,7 +136,7 @@ bool segments_meet(const Segment& s, const Segment& t) {
   auto axis = projection_axis(s.from, s.to, t.from);
   if (!axis) axis = projection_axis(s.from, s.to, t.to);
   if (!axis) axis = projection_axis(t.from, t.to, s.from);
-  // All points are on one line: compare intervals.
+  // If all points are on one line, compare intervals.
   if (!axis) return !is_before(s.to, t.from) && !is_before(t.to, s.from);
   const auto straddles = [&](const Segment& u, const Segment& v) { return orient(u.from, u.to, v.from, *axis) * orient(u.from, u.to, v.to, *axis) <= 0; };
   return straddles(s, t) && straddles(t, s);
@@ -189,7 +189,7 @@ bool cross_beyond_edge_slowly(const Corners& a, const Corners& b) {
 
 // ---------------------------------------------------------------- two triangles that share a corner or an edge
 
-/// Returns true if two triangles with a common first corner have more points in common: as the intersection is convex, this is so iff the sectors at the corner
+/// Returns true if two triangles with a common first corner have more points in common. As the intersection is convex, this is so iff the sectors at the corner
 /// have a common ray.
 bool cross_beyond_corner(const Corners& a, const Corners& b) {
   const int side_1 = orient3d(b[0], b[1], b[2], a[1]);

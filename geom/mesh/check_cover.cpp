@@ -38,7 +38,7 @@ BoundarySurface collect_boundary(const HybridMesh& mesh, const FaceSlots& slots)
   return surface;
 }
 
-/// Labels pieces connected over edges that exactly two triangles share: nothing can separate the two sides of such an edge.
+/// Labels pieces connected over edges that exactly two triangles share, because nothing can separate the two sides of such an edge.
 std::vector<std::uint32_t> label_pieces(const TriMesh& mesh, const RunContext& context) {
   struct Edge {
     std::uint32_t lower, upper, triangle;

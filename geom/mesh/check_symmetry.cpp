@@ -1,4 +1,4 @@
-// G20: every symmetry patch lies in one plane: x, y or z = constant, else the best-fit plane.
+// G20: tests that every symmetry patch lies in one plane, which is x, y or z = constant, or else the best-fit plane.
 #include <cmath>
 #include <cstdio>
 

@@ -24,7 +24,7 @@ class ColumnShapes {
   std::span<const CellShape> cells();
   /// Writes the centres and volumes of the column's prisms to `places`, one per layer.
   void places(Place* places) const;
-  /// Returns the faces between the column's prisms, lowest first. \param places those of the column's prisms; three more may be read
+  /// Returns the faces between the column's prisms, lowest first. \param places the places of the column's prisms; three more may be read
   std::span<const InnerFace> tops(const Place* places);
   /// Returns the faces between the column's prisms and those of the column across a side.
   std::span<const InnerFace> side(std::size_t corner, const Place* places, const Place* places_beyond);

@@ -43,8 +43,8 @@ struct DualScan {
   void merge(DualScan&& other);
 };
 
-/// Scans all nodes in one pass: columns along their lines, four layers at a time, all other nodes cell by cell around each node. Parallel; needs about 12
-/// bytes per node that is not inside a column and 4 per corner of an explicit cell.
+/// Scans all nodes in one pass. Nodes of columns are scanned along their lines, four layers at a time; all other nodes are scanned cell by cell around each
+/// node. Runs in parallel and needs about 12 bytes per node that is not inside a column and 4 per corner of an explicit cell.
 /// \pre as dual_metrics
 /// \param lines result of scan_lines(); not used if explicit cells or boundary faces touch nodes inside columns.
 DualScan scan_dual(const HybridMesh& mesh, const GateTable& limits, const RunContext& context, const DualScan* lines = nullptr);

@@ -235,7 +235,8 @@ void BodyBuilder::dome(const Ring& ring, double height, FaceRole role, const std
   halves(form, ring.halves, {builder_.pole(top), builder_.pole(top)}, ring.corners, {top, top}, role, name);
 }
 
-/// Builds the surface from the front frame around the lip and back to a flat fan face; it leaves the frame along the body's own slope, so the lip is round.
+/// Builds the surface from the front frame around the lip and back to a flat fan face. The surface leaves the frame along the body's own slope, so the lip is
+/// round.
 void BodyBuilder::lip(const Ring& ring) {
   const InletLip& lip = *body_.lip;
   const Point middle = middle_of(ring.poles);

@@ -329,7 +329,7 @@ void Reader::devices(const Node& node, const Wing& wing, const std::vector<Eleme
               if (!at) file_.fail(border, std::string("the element '") + tag + "' is missing");
               return at.child(inner) ? file_.child_number(at, inner, 0.0) : file_.child_number(border, tag, 0.0);
             };
-            // The border may be omitted at one of both ends: it is then parallel to the flow.
+            // The border may be omitted at one of the two ends. The control surface then ends parallel to the flow.
             const char* const other = is_trailing ? "etaTE" : "etaLE";
             const char* hinge_eta = is_trailing ? "etaLE" : "etaTE";
             if (!border.child(hinge_eta) && border.child(other)) hinge_eta = other;

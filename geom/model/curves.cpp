@@ -16,7 +16,7 @@ constexpr double k_turn = 2.0 * std::numbers::pi;
 constexpr double k_same_turn = 1e-12;
 /// Cosine of the angle between the axes of an ellipse below which they count as orthogonal.
 constexpr double k_right_angle = 1e-9;
-/// A view may exceed its domain by this fraction of it: rounding of its own limits.
+/// A view may exceed its domain by this fraction of it, because its own limits are rounded.
 constexpr double k_overreach = 1e-9;
 
 void check_domain(Interval domain, const char* attempted) {

@@ -103,7 +103,7 @@ class FaceIntegral {
     return {area, dot(x, n) / 3.0, 0.5 * std::abs(n.z), n, area * x, 0.5 * Vec3{x.x * x.x * n.x, x.y * x.y * n.y, x.z * x.z * n.z}};
   }
 
-  /// Returns the parameters at which an edge use is divided, within the range of the edge: the parameter curve may extend beyond it.
+  /// Returns the parameters at which an edge use is divided, within the range of the edge, because the parameter curve may extend beyond that range.
   std::vector<double> steps_of(const EdgeUse& use) const {
     const Interval range = model_.edges[use.edge].range;
     const std::optional<NurbsCurveForm<Uv>> form = use.parameter->exact_nurbs();

@@ -83,8 +83,8 @@ Type type_of(hid_t id) {
   return {};
 }
 
-/// Opens the file. The library requires the real path of a file. A file that was packed exists only in memory and has no path: the library gets a copy of its
-/// bytes.
+/// Opens the file. The library requires the real path of a file. A file that was packed exists only in memory and has no path, so the library gets a copy of
+/// its bytes.
 hid_t open_file(const char* path, const Limits& limits) {
   char* const real_path = realpath(path, nullptr);
   if (real_path) {
