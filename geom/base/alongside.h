@@ -17,12 +17,12 @@ namespace detail {
 void yield_to_others();
 }  // namespace detail
 
-/// Runs `work(context) -> T` beside the caller at low priority, on all threads of the context but one, or on all. With a single thread the work runs to its end
-/// before the caller continues. The result does not depend on the number of threads, because no kernel's result does. The destructor stops the work.
+/// Runs `work(context) -> T` beside the caller at low priority. With a single thread the work runs to its end before the caller continues. The result does not
+/// depend on the number of threads, because no kernel's result does. The destructor stops the work.
 template <class T>
 class Alongside {
  public:
-  /// Overload for a caller that waits for another process, which itself needs one thread.
+  /// Uses all threads of the context except one: for a caller that waits for another process, which itself needs one thread.
   template <class Work>
   Alongside(const RunContext& context, Work work) : Alongside(context, context.threads() - 1, std::move(work)) {}
   /// Runs the work on `n_threads` threads, as far as the caller's own parallel loops leave them idle. \pre n_threads > 0 if the context has more than one

@@ -30,7 +30,8 @@ struct ChildStart {
   std::vector<std::string> words;                ///< the program and its arguments; the program is searched for in PATH unless its name contains a slash
   std::vector<std::pair<int, int>> descriptors;  ///< {here, there}: `here` is inherited under the number `there`; \pre no `here` equals the `there` of an
                                                  ///< earlier pair
-  std::string output;                            ///< file that receives stdout and stderr, emptied first; empty = as given by `descriptors`
+  std::string output;                            ///< file for stdout and stderr, emptied at the start; if empty, `descriptors` determines stdout and
+                                                 ///< stderr
   std::string folder;                            ///< working directory; empty = that of this process
 };
 

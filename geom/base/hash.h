@@ -13,10 +13,10 @@
 namespace sterna {
 
 /// Returns XXH3, 128 bits, of a file's bytes as 32 lower-case hex digits; identical to the output of `xxhsum -H2`. Reads in blocks, about 5 GB/s once cached.
-/// \throws Error(file_not_found) if it cannot be opened or is a folder, Error(file_malformed) if reading fails half-way; with the system's reason
+/// \throws Error(file_not_found) if the file cannot be opened or is a folder, Error(file_malformed) if reading fails half-way; both give the system's reason
 std::string hash_file(const std::filesystem::path& path);
 
-/// Returns one hash of several files: the hash of the text that `xxhsum -H2 NAME NAME ...` prints in their folder (each line the file's hash, two blanks, its
+/// Returns one hash of several files: the hash of the text that `xxhsum -H2 NAME NAME ...` prints in their folder (one line per file: its hash, two blanks, its
 /// name). The order of the files matters.
 /// \throws Error as hash_file
 std::string hash_files(std::span<const std::filesystem::path> paths);

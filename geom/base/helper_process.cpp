@@ -23,7 +23,8 @@ namespace {
 constexpr int k_poll_ms = 20;                ///< polling interval for a stop or the time limit
 constexpr int k_late_poll_ms = 2;            ///< polling interval for late data
 constexpr std::size_t k_output_kept = 4096;  ///< bytes of the helper's last output kept for the error message
-constexpr int k_folders_up = 3;              ///< the program's folder and two above it: tests and fuzz targets lie below the build folder
+constexpr int k_folders_up = 3;              ///< number of folders searched: the program's and two above it, because tests and fuzz targets lie below the build
+                                             ///< folder
 
 [[noreturn]] void throw_system_failure(const HelperTask& task, const std::string& what, int error) {
   throw Error({.code = task.failed, .attempted = task.attempted, .problem = what + ": " + std::strerror(error)});
@@ -143,7 +144,7 @@ HelperExit run_helper(const HelperStart& start, int request, int reply, const Ru
   words.write_end.reset();
   const auto seconds = [&] { return std::chrono::duration<double>(Clock::now() - begin).count(); };
 
-  // The end of the output is the end of the helper, unless it has closed its output; in that case poll in short intervals.
+  // The helper usually ends when its output ends. If it has only closed its output, poll for its end in short intervals.
   std::optional<int> ended;
   for (bool is_open = true; is_open || !(ended = child.ended());) {
     const bool is_waiting = late_block && !late_block->send(start.late());

@@ -22,7 +22,7 @@ inline constexpr int k_helper_late_ready_fd = 6;  ///< pipe: receives the length
 struct HelperTask {
   std::string helper;                       ///< "the tetrahedra engine"
   std::string attempted;                    ///< "passing the boundary to the tetrahedra engine"
-  std::string else_try;                     ///< appended to the hint to build it: ", or set ..."; may be empty
+  std::string else_try;                     ///< alternative remedy, appended to the hint to build the helper: ", or set ..."; may be empty
   ErrorCode missing = ErrorCode::internal;  ///< code of the error if the helper is missing or cannot be started
   ErrorCode failed = ErrorCode::internal;   ///< code of the error if the system refuses memory or a pipe
 };
@@ -60,7 +60,7 @@ struct HelperStart {
   HelperTask task;
   std::string path;                    ///< path of the executable
   std::vector<std::string> arguments;  ///< arguments without the program's name
-  LateData late;                       ///< empty = none; called repeatedly; an exception that it throws ends the helper and is rethrown by run_helper
+  LateData late;                       ///< called repeatedly unless empty; an exception that it throws ends the helper and is rethrown by run_helper
   double time_limit = 0.0;             ///< seconds of wall time; k_automatic = none
 };
 
@@ -76,7 +76,8 @@ struct HelperExit {
 /// Starts the helper with the descriptors `request` and `reply` as its descriptors 3 and 4, and waits for its end. The helper has its own process group, so
 /// that Ctrl-C reaches it only through the context's stop.
 /// \pre request and reply are 10 or more, as those of SharedBlock are; see above_helper_descriptors()
-/// \throws Error task.missing if it cannot be started, task.failed; cancelled (the helper is killed and reaped first)
+/// \throws Error(task.missing) if the helper cannot be started, Error(task.failed) if the system refuses memory or a pipe, Error(cancelled) after the helper
+/// was killed and reaped
 HelperExit run_helper(const HelperStart& start, int request, int reply, const RunContext& context);
 
 /// Duplicates the file to a descriptor number that run_helper accepts and closes the old descriptor.

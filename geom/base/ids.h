@@ -14,7 +14,7 @@ namespace sterna {
 /// Throws Error(ErrorCode::overflow) naming the quantity that overflowed; defined in ids.cpp.
 [[noreturn]] void throw_id_overflow(std::uint64_t value);
 
-/// 32-bit id of one kind of entity. Invalid by default; no implicit conversion in or out.
+/// 32-bit id of one kind of entity. It is invalid by default and has no implicit conversions.
 template <class Tag>
 class Id {
  public:

@@ -14,7 +14,7 @@ namespace {
 
 constexpr double k_untold = std::numeric_limits<double>::infinity();
 
-/// Returns the number after a key in a file of lines "key number ..."; untold if there is none.
+/// Returns the number after a key in a file of lines "key number ..."; k_untold if there is none.
 double number_of(const std::filesystem::path& path, const std::string& wanted) {
   std::ifstream file(path);
   std::string key, rest;
@@ -26,7 +26,7 @@ double number_of(const std::filesystem::path& path, const std::string& wanted) {
   return k_untold;
 }
 
-/// Returns the only number in a file; untold for "max", or if there is no such file.
+/// Returns the only number in a file; k_untold for "max", or if there is no such file.
 double number_of(const std::filesystem::path& path) {
   std::ifstream file(path);
   double number = 0.0;

@@ -56,8 +56,8 @@ class ThreadPool {
       allowance.emplace(tbb::global_control::max_allowed_parallelism, std::max(static_cast<std::size_t>(count), k_allowed_threads));
   }
   int threads;
-  std::optional<tbb::global_control> allowance;  ///< set only above the hardware's number of threads, which is TBB's own limit; 7 threads must be possible on 2
-                                                 ///< cores
+  std::optional<tbb::global_control> allowance;  ///< set only if more threads are requested than the hardware has, which is TBB's own limit; 7 threads must be
+                                                 ///< possible on 2 cores
   tbb::task_arena arena;
 };
 

@@ -1,5 +1,5 @@
-// Deterministic parallel loops over oneTBB: chunks have a fixed size that does not depend on the number of threads, partial results are
-// combined in chunk order, sorts need a total order. Same bytes for any thread count.
+// Deterministic parallel loops over oneTBB. Chunks have a fixed size that does not depend on the number of threads, partial results are combined in chunk
+// order, and sorts need a total order. Results therefore have the same bytes for any number of threads.
 // The TBB headers stay in parallel.cpp (or, for the tsan preset, a std::thread back end behind the same functions).
 #pragma once
 
@@ -100,7 +100,7 @@ void parallel_sort(const RunContext& context, std::vector<T>& values, const Less
 /// Runs two independent functions, possibly at the same time.
 void parallel_invoke(const RunContext& context, const std::function<void()>& f, const std::function<void()>& g);
 
-/// Sum with a running compensation (Neumaier 1974): error independent of the number of terms.
+/// Sum with a running compensation (Neumaier 1974), so that the error does not depend on the number of terms.
 class CompensatedSum {
  public:
   void add(double value) {

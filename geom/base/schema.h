@@ -33,13 +33,12 @@ struct Field {
   std::string_view name;
   std::variant<bool T::*, int T::*, double T::*, std::string T::*> member;
   Unit unit = Unit::none;
-  double min = -k_unbounded;  ///< inclusive
-  double max = k_unbounded;   ///< inclusive
+  double min = -k_unbounded;  ///< smallest valid value
+  double max = k_unbounded;   ///< largest valid value
   std::string_view help;
   std::string_view automatic = {};  ///< for numbers: meaning of k_automatic or k_automatic_count, e.g. "50 body lengths"; empty = a number is required
-  std::string_view choices =
-      {};                 ///< for strings: the allowed values, separated by blanks; empty = any. For numbers: names that stand for some: "coarse=0.5 fine=2"
-  bool required = false;  ///< the user must set the option
+  std::string_view choices = {};    ///< for strings: allowed values, separated by blanks; empty = any. For numbers: names of some values: "coarse=0.5 fine=2"
+  bool required = false;            ///< the user must set the option
 };
 
 /// Specialise for every options struct T:

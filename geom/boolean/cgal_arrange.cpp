@@ -109,7 +109,7 @@ class Arranger {
     } else if (const auto* segment = boost::get<ExactKernel::Segment_3>(&*common)) {
       piece = {segment->source(), segment->target(), false};
     } else {
-      return;  // a region: the triangles are coplanar, which was tested before
+      return;  // the intersection is a region only for coplanar triangles, which are in one group and not intersected
     }
     for (const Point3* p : {&piece.a, &piece.b}) CGAL::exact(*p);
     of_i.push_back(piece);

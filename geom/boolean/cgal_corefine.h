@@ -26,9 +26,9 @@ struct CorefinedUnion {
 };
 
 /// Adds the solids one by one, in order. Exact constructions are used throughout and rounded once at the end, so that no solid is cut by the rounding of an
-/// earlier cut. Faces that two solids share exactly are handled; of two coplanar pieces with the same side that of the earlier solid is kept. Serial; the
-/// result is the same for any number of threads. Rounding may invert pieces thinner than the last bit; the caller must check the result. Cost: about 10 us per
-/// triangle plus 0.2 ms per pair of crossing triangles.
+/// earlier cut. Faces that two solids share exactly are handled: if both solids are on the same side of the face, the piece of the earlier solid is kept.
+/// Serial; the result is the same for any number of threads. Rounding may invert pieces thinner than the last bit; the caller must check the result. Cost:
+/// about 10 us per triangle plus 0.2 ms per pair of crossing triangles.
 /// \throws Error(cancelled) between solids
 CorefinedUnion corefine_union(const std::vector<TaggedSolid>& solids, const RunContext& context);
 

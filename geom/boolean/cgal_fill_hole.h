@@ -12,7 +12,8 @@ namespace sterna {
 
 struct HolePatch {
   std::vector<Vec3> points;                             ///< new points; numbered after those of the loop
-  std::vector<std::array<std::uint32_t, 3>> triangles;  ///< empty if no triangulation was found; orientation: a triangle runs along loop[i] -> loop[i + 1]
+  std::vector<std::array<std::uint32_t, 3>> triangles;  ///< empty if no triangulation was found; the triangle at a loop edge runs along it from loop[i] to
+                                                        ///< loop[i + 1]
 };
 
 /// Fills the region enclosed by closed loops in one plane (even-odd rule: a loop inside another bounds a hole) by a constrained Delaunay triangulation without

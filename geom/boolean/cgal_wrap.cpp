@@ -19,7 +19,7 @@ using WrapMesh = CGAL::Surface_mesh<WrapPoint>;
 /// Number of points between two progress updates.
 constexpr std::int64_t k_points_per_step = 64;
 
-/// Counts points: progress, stop, limit.
+/// Counts the inserted points, to report progress, check for a stop and enforce the limit.
 struct PointCounter : CGAL::Alpha_wraps_3::internal::Wrapping_default_visitor {
   const AlphaWrapInput* input = nullptr;
   const RunContext* context = nullptr;

@@ -23,15 +23,15 @@ constexpr int k_sliver_sweeps = 4;
 /// An edge is long beyond this multiple of the local length, and short below this fraction; the halves of a split edge are therefore not short.
 constexpr double k_long = 1.5;
 constexpr double k_short = 0.6;
-/// Vertices nearer than this fraction of the input's edge lengths are merged: parts intended to share a plane, apart by rounding.
+/// Vertices nearer than this fraction of the input's edge lengths are merged: they belong to parts that should share a plane but differ by rounding.
 constexpr double k_merge = 1e-3;
-/// rad; a collapse may leave an angle of this size even if other angles were larger: 15 degrees.
+/// rad, 15 degrees: a collapse may leave an angle of this size, even if all angles were larger before.
 constexpr double k_fair_angle = 0.26;
 /// rad; minimum gain of a flip, so that equal diagonals are not flipped forever.
 constexpr double k_flip_gain = 1e-3;
 /// rad; triangles with a smaller angle are processed individually: 12 degrees.
 constexpr double k_poor_angle = 0.21;
-/// cos of 1 degree: normals around a movable input vertex agree within it.
+/// cos of 1 degree, within which the normals around a movable input vertex agree.
 constexpr double k_flat = 0.99985;
 
 using StripVertex = std::uint32_t;
@@ -117,7 +117,8 @@ class StripRemesher {
   }
   double tolerance(StripVertex a, StripVertex b) const { return options_.deviation * std::min(local_[a].longest, local_[b].longest); }
 
-  /// Computes shortest paths along edges from the curve: lengths grow from the curve's up to those of the input. Paths end beyond the strip's width.
+  /// Computes the distance of each vertex from the curve, along edges, up to the strip's width. Grades the edge lengths by this distance, from those at the
+  /// curve to those of the input.
   void measure_strip() {
     const std::size_t n = mesh_.points.size();
     local_ = base_;
@@ -151,7 +152,7 @@ class StripRemesher {
     }
   }
 
-  /// Returns the edges with an end that may change, each once.
+  /// Returns the accepted edges with at least one end that may change, each once, by length.
   template <class Accept>
   std::vector<RankedEdge> edges_where(const Accept& accept) const {
     std::vector<RankedEdge> found;
@@ -223,7 +224,7 @@ class StripRemesher {
 
   bool flip(const EdgeEnds& e) { return !mesh_.is_kept_edge(e[0], e[1]) && mesh_.flip(e[0], e[1], k_flip_gain, tolerance(e[0], e[1])); }
 
-  /// Returns true if the vertex may move. An input vertex may move only in a plane: elsewhere it defines the shape.
+  /// Returns true if the vertex may move. An input vertex may move only in a plane, because elsewhere it defines the shape.
   bool is_free(StripVertex v) const {
     if (mesh_.star[v].empty() || !may_change(v) || curve_[v]) return false;
     const StripTriangle& first = mesh_.triangles[mesh_.star[v].front()];
@@ -255,7 +256,7 @@ class StripRemesher {
       ++n_flipped_;
       return true;
     }
-    // Accept any result better than this triangle: the worst angle of its neighbourhood improves.
+    // Accepts any result that is better than this triangle, because the worst angle of its neighbourhood then improves.
     const double least = mesh_.min_angle(t) + k_flip_gain;
     for (const RankedEdge& edge : edges)
       if (collapse(edge.ends[0], edge.ends[1], least) || collapse(edge.ends[1], edge.ends[0], least)) return true;
@@ -297,7 +298,7 @@ class StripRemesher {
   StripMesh mesh_;
   const TriangleTree& reference_;
   std::vector<char> is_new_;
-  std::vector<LocalLength> local_;  ///< per vertex: graded from the curve
+  std::vector<LocalLength> local_;  ///< per vertex: lengths of the input, limited by the growth from the curve
   std::vector<char> is_in_strip_;
   std::int64_t n_split_ = 0, n_collapsed_ = 0, n_flipped_ = 0, n_moved_ = 0;
 };

@@ -89,7 +89,7 @@ void add_solids(const UnionPart& part, std::size_t index, const std::vector<Patc
   }
 }
 
-/// Processes every pair of intersecting triangles: an error within one solid, a link between two.
+/// Processes every pair of intersecting triangles. A pair within one solid is an error, a pair of two solids links them.
 void find_links(SolidParts& all, const RunContext& context) {
   std::vector<Vec3> points;
   std::vector<std::array<std::uint32_t, 3>> triangles(all.facets.size());

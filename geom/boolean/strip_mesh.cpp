@@ -13,7 +13,7 @@
 namespace sterna {
 namespace {
 
-/// Smallest cell, as an absolute power of two: only triangles of negligible size are below it.
+/// Exponent (base 2) of the smallest cell size: only triangles of negligible size are smaller.
 constexpr int k_least_exponent = -60;
 
 double min_angle_of(const Vec3& a, const Vec3& b, const Vec3& c) { return std::min({corner_angle(a, b, c), corner_angle(b, c, a), corner_angle(c, a, b)}); }
@@ -134,7 +134,7 @@ std::size_t StripMesh::count_crossings(std::span<const std::uint32_t> set) const
     near.erase(std::unique(near.begin(), near.end()), near.end());
     for (const std::uint32_t other : near) {
       if (other == t || !overlap(box, box_of(other))) continue;
-      if (other < t && std::find(set.begin(), set.end(), other) != set.end()) continue;  // counted for the other triangle
+      if (other < t && std::find(set.begin(), set.end(), other) != set.end()) continue;  // the pair is counted for the other triangle
       if (triangles_cross(points, triangles[t].v, triangles[other].v)) ++n;
     }
   }

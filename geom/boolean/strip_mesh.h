@@ -50,7 +50,8 @@ struct StripTriangle {
 
 /// Limits of all exchanges.
 struct StripLimits {
-  double max_bend = 0.35;  ///< rad; edges whose input triangles bend by more are kept, and no triangle may rotate further away from its input
+  double max_bend = 0.35;  ///< rad; edges whose input triangles bend by more are kept, and no triangle's normal may turn by more from that of its input
+                           ///< triangle
 };
 
 /// Limits of a collapse.
@@ -58,7 +59,7 @@ struct CollapseLimits {
   double least_angle = 0.0;   ///< rad; no triangle may get a smaller angle, unless the smallest angle of the changed triangles increases
   double longest = 0.0;       ///< m; limit of new edges
   double tolerance = 0.0;     ///< m; largest distance from the reference, and of kept lines from their original position
-  double merge = 0.0;         ///< m; two vertices nearer than this are treated as one: neither kept lines nor angles prevent their merging
+  double merge = 0.0;         ///< m; two vertices nearer than this may be merged, even if kept lines or angles would prevent it
   bool is_one_place = false;  ///< the caller has verified that the two vertices may be joined as if they were nearer than `merge`
 };
 
@@ -106,7 +107,8 @@ class StripMesh {
     std::vector<std::uint32_t> removed;
     std::vector<StripTriangle> added;
   };
-  /// Triangles thinner than `negligible` (m) are not tested, since they have no normal.
+  /// Returns true if no new triangle turns from its input triangle by more than max_bend. Triangles thinner than `negligible` (m) are not tested, since they
+  /// have no normal.
   bool are_normals_sound(const Exchange& exchange, double negligible = 0.0) const;
   /// Returns true if the kept edges at `from` allow moving it to `to`.
   bool is_way_along_kept_edges(std::uint32_t from, std::uint32_t to, double tolerance) const;

@@ -1,5 +1,5 @@
-// Steps: the closed components of all parts (find_solids); the exact union of the groups connected by crossings (unite_group); removal of groups inside other
-// solids (is_inside_another); removal of cavities (drop_cavities); remeshing of the strips along the curves (remesh_strip); final test for crossings.
+// The steps are: find the closed components of all parts (find_solids), unite the groups that are connected by crossings exactly (unite_group), remove groups
+// inside other solids (is_inside_another) and cavities (drop_cavities), remesh the strips along the curves (remesh_strip), and test for crossings.
 #include "geom/boolean/union_meshes.h"
 
 #include <algorithm>

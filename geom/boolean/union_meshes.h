@@ -12,7 +12,7 @@ namespace sterna {
 
 /// A part: one or several closed surfaces, which may also cross each other.
 struct UnionPart {
-  std::string name;  ///< for messages, and for patches of the same name in two parts
+  std::string name;  ///< name for messages; prefix of patches whose name also occurs in another part
   TriMesh mesh;
 };
 
@@ -32,7 +32,7 @@ struct StripQuality {
   double shortest_edge = 0.0;  ///< m
 };
 
-/// rad, 5 degrees: next to smaller angles wall layers rarely reach their full height.
+/// rad, 5 degrees. A triangle with a smaller angle is a sliver; next to it wall layers rarely reach their full height.
 inline constexpr double k_sliver_angle = 0.0873;
 
 struct UnionReport {

@@ -11,14 +11,14 @@
 namespace sterna::cad {
 namespace {
 
-/// Relative tolerance of area and volume: a hundred times the error from translating curves.
+/// Relative tolerance of area and volume. It is a hundred times the error from translating curves.
 constexpr double k_same_written = 1e-6;
 /// Area below which a body is ignored, relative to the square of the model's size.
 constexpr double k_no_extent = 1e-12;
 /// Intervals of an edge for computing its length.
 constexpr int k_edge_intervals = 16;
 
-/// A closed solid, or all open shells and loose faces together: formats store the latter in different ways.
+/// A closed solid, or all open shells and loose faces together, because formats store shells and loose faces in different ways.
 struct WrittenBody {
   std::string name;
   bool is_closed = false;

@@ -41,7 +41,7 @@ FaceOrigins origins_of(BRepBuilderAPI_MakeShape& operation, std::span<const Bool
 LabelledShape labelled(const TopoDS_Shape& shape, const FaceOrigins& origins, std::span<const BooleanPart> parts);
 
 /// Restores attributes of a model made by `labelled`: roles, kinds, kinds of components and, if the geometry is the same, the original surface object of the
-/// faces. `of_face` receives the origin of each face. \returns description of the problem; empty: none
+/// faces. `of_face` receives the origin of each face. Returns a description of the problem, empty if there is none.
 std::string restore_origins(Model& model, const FaceOrigins& origins, std::span<const BooleanPart> parts, std::vector<FaceOrigin>& of_face);
 
 /// Returns the midpoints of the free edges.

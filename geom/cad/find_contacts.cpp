@@ -1,5 +1,6 @@
-// Steps: triangulate every part with parameters; for pairs of parts whose boxes are near: crossing triangles and their angles, else nearest points, else
-// inside; groups of connected parts; gaps between groups; fraction of each part outside of all others.
+// Steps: triangulate every part, with parameters. For each pair of parts whose boxes are near, look for crossing triangles and their angles, else for the
+// nearest points, else test if one part is inside the other. Collect groups of connected parts, and find the gaps between groups. Estimate the fraction of each
+// part that lies outside all others.
 #include "geom/cad/find_contacts.h"
 
 #include <BRepBuilderAPI_Copy.hxx>
@@ -31,7 +32,7 @@ namespace {
 
 /// Deviation of the triangles from the surface, relative to the part's longest side: a wing's thickness is twenty times larger.
 constexpr double k_deflection = 1e-3;
-/// Angle of the surface within a triangle, radians: a leading edge has a few triangles around it.
+/// Largest angle by which the surface turns within a triangle, radians: a leading edge has a few triangles around it.
 constexpr double k_turn = 0.5;
 /// Parts nearer than this fraction of the larger part's size touch: the first fuzzy tolerances of the union close the gap.
 constexpr double k_touch = 1e-6;
@@ -41,9 +42,9 @@ constexpr int k_rounds = 30;
 constexpr double k_standing = 1e-4;
 /// Longest side of the sampled pieces, relative to the part's longest side.
 constexpr double k_sample = 1.0 / 48.0;
-/// Direction of the rays of the inside test: not along any axis or plane commonly used in aircraft.
+/// Direction of the rays of the inside test. It lies along no axis and in no plane that is common in aircraft.
 constexpr Vec3 k_ray{0.2872, 0.5417, 0.7900};
-/// Ray hits nearer to each other than this, relative to the part's size, count once: a ray through an edge hits both of its triangles.
+/// Ray hits nearer to each other than this, relative to the part's size, count once, because a ray through an edge hits both of its triangles.
 constexpr double k_same_hit = 1e-12;
 /// Crossing pairs of facets per chunk.
 constexpr std::size_t k_chunk = 64;
@@ -256,7 +257,8 @@ struct WayOut {
   double distance = 0.0;
 };
 
-/// Returns nothing if the point is inside the container, or within the triangulation's deviation from the surface and inside the surface.
+/// Returns the way from the container's surface to a point outside. Returns nothing if the point is inside the container, also if it is only inside the exact
+/// surface but outside the triangulation.
 std::optional<WayOut> way_out(const Skin& container, const Point& p) {
   if (is_inside(container, p)) return std::nullopt;
   const NearestHit hit = container.tree->nearest(p);
@@ -270,7 +272,7 @@ std::optional<WayOut> way_out(const Skin& container, const Point& p) {
   return WayOut{id, norm(out)};
 }
 
-/// Areas of a part by location.
+/// Areas of a part: outside all other parts, inside each of them, and too near to a surface to decide.
 struct Shares {
   double outside = 0.0, unsure = 0.0;
   std::vector<double> inside;  ///< per other part: area inside it

@@ -15,16 +15,16 @@ enum class ContactKind {
   crossing,  ///< the surfaces intersect
   touching,  ///< the distance is below the tolerance without crossing: a common face, edge or point
   inside,    ///< one part lies in the other
-  apart,     ///< nearest points of a group of connected parts and the rest: one contact less than there are groups
+  apart,     ///< a group of connected parts is separate from the rest; the contact gives their nearest points; n groups have n - 1 such contacts
 };
 std::string_view to_string(ContactKind kind);
 
 struct PartContact {
-  std::size_t first = 0, second = 0;  ///< numbers of the parts; inside: `first` lies in `second`; apart: `first` is in the smaller group
+  std::size_t first = 0, second = 0;  ///< numbers of the parts; for `inside`, `first` lies in `second`; for `apart`, `first` is in the smaller group
   ContactKind kind = ContactKind::crossing;
-  Point place;                   ///< crossing: location of the smallest angle; else of the smallest distance; inside: a point of `first`
-  double angle = 0.0;            ///< crossing: smallest angle between the tangent planes, radians
-  bool is_crevice = false;       ///< crossing: the fluid is in the narrow angle between the surfaces; else they blend into each other
+  Point place;         ///< location of the smallest angle (crossing), a point of `first` (inside), or the location of the smallest distance (other contacts)
+  double angle = 0.0;  ///< crossing: smallest angle between the tangent planes, radians
+  bool is_crevice = false;       ///< for a crossing: true if the fluid is in the narrow angle between the surfaces, false if they blend into each other
   double gap = 0.0;              ///< apart: smallest distance, metres
   double share_inside = 0.0;     ///< crossing: fraction of the area inside the other part, for the part with the larger fraction
   bool is_first_inside = false;  ///< crossing: `share_inside` refers to `first`
@@ -33,7 +33,8 @@ struct PartContact {
 /// Fraction of a part's surface that remains in the union, estimated from samples.
 struct PartExposure {
   double outside = 1.0;  ///< fraction of the area outside all other parts
-  double unsure = 0.0;   ///< fraction within 1e-3 of the parts' sizes of another part's surface: common faces, and a strip along every crossing
+  double unsure = 0.0;   ///< fraction of the area that is nearer to another part's surface than 1e-3 of the parts' sizes: common faces, and a strip along every
+                         ///< crossing
 };
 
 struct ContactReport {

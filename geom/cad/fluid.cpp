@@ -1,5 +1,5 @@
-// Steps: solids of the bodies, united where they touch; the relation of each to the container; bodies that reach its faces are subtracted from it in one
-// boolean, which is checked; the others are added to the result; finally all normals are oriented into the fluid.
+// Steps: unite the solids of the bodies where they touch; determine how each lies relative to the container; subtract bodies that reach the container's faces
+// in one boolean, and check its result; add the other bodies to the result; finally orient all normals into the fluid.
 #include "geom/cad/fluid.h"
 
 #include <algorithm>
@@ -41,7 +41,7 @@ Model solid_container(const Model& container, const RunContext& context) {
 
 /// Relation of the bodies to the container: part 0 is the container, part i is body i - 1.
 struct Meeting {
-  std::vector<std::size_t> cut, inside;  ///< parts
+  std::vector<std::size_t> cut, inside;  ///< numbers of the parts that reach the container's faces, and of those inside it
   ContactReport contacts;
 };
 

@@ -44,7 +44,7 @@ struct FluidReport {
   double volume = 0.0;              ///< volume of the fluid, m^3
   double container_volume = 0.0;    ///< m^3
   std::vector<std::string> cut;     ///< bodies that reach the container's faces
-  std::vector<std::string> inside;  ///< bodies that do not
+  std::vector<std::string> inside;  ///< bodies inside the container that do not reach its faces
   std::vector<ErrorPlace> doubts;   ///< contacts that are difficult to mesh: descriptions of bodies nearly tangent to the container
 };
 
@@ -61,9 +61,9 @@ using MayPass = std::function<bool(const Overhang&)>;
 /// Returns the container minus the bodies. Solids of the bodies that touch are united first. Bodies inside stay unchanged. Bodies that pass through the
 /// container's faces, or stand on them, are cut off there, which leaves openings in these faces. An overhang (find_overhangs) that is not permitted is an
 /// error; without `may_pass` all are permitted. Faces keep names, components, roles, kinds, colours and surfaces. Normals point into the fluid: those of the
-/// container inwards, those of bodies outwards. The container may be given with either orientation. Solids of the result: the container with the cut bodies,
-/// then each body inside. The result is verified like a union: valid, closed, with the expected volume and remaining area of each part. The same bytes for any
-/// number of threads.
+/// container inwards, those of bodies outwards. The container may be given with either orientation. The solids of the result are the container with the cut
+/// bodies, followed by each body inside. Like a union, the result is verified to be valid and closed, with the expected volume and remaining area of each part.
+/// The bytes do not depend on the number of threads.
 /// \throws Error(open_surface) for open parts; Error(bad_argument) naming a body, with its location, that lies outside the container, fills it, or divides the
 /// fluid in two, or parts that would be cut off, with the length of their overhang; Error(geometry_failed) after the last tolerance or past the time limit;
 /// Error(cancelled)

@@ -1,5 +1,5 @@
-// Steps: side of each face relative to the plane; removal of solids beyond it, union of the others; cut of faces that cross it by a half space; removal of
-// faces beyond it and in it; projection of free edges into the plane.
+// Steps: find the side of the plane on which each face lies; remove solids beyond the plane and unite the others; cut faces that cross the plane by a half
+// space; remove faces beyond it and in it; project free edges into the plane.
 #include "geom/cad/half_model.h"
 
 #include <algorithm>
@@ -24,8 +24,8 @@ namespace sterna::cad {
 namespace {
 
 constexpr const char* k_half_attempt = "cutting the model in half";
-/// Geometry nearer to the plane than this fraction of the longest side is in it: where surface meshers and CAD systems split aircraft, it is a hundred times
-/// nearer.
+/// Geometry nearer to the plane than this fraction of the longest side counts as in the plane. Surface meshers and CAD systems split aircraft a hundred times
+/// more accurately than that.
 constexpr double k_tolerance_share = 1e-6;
 /// Allowed distance from the plane of an edge of a face in the plane, as a multiple of the edge's tolerance.
 constexpr double k_edge_tolerances = 2.0;
@@ -175,7 +175,8 @@ void judge_half(const std::vector<BooleanPart>& parts, BooleanTry& result, const
     outcome.problem = number_text(area) + " m^2 of faces are left, expected " + number_text(least) + " to " + number_text(most);
 }
 
-/// Returns the corner nearest to the plane but not in it, for cuts that fail without a location: faces there touch the plane, or run along it.
+/// Returns the corner that is nearest to the plane but not in it, as the location of a cut that fails without one: faces there touch the plane, or run along
+/// it.
 ErrorPlace nearest_to(const Plane& plane, const Model& model) {
   double least = std::numeric_limits<double>::infinity();
   Point nearest;

@@ -1,4 +1,4 @@
-// Half of a model, cut at a plane of symmetry: open there, with a boundary that lies exactly in the plane, to the last bit.
+// Cuts a model at a plane of symmetry. The half is open there; its boundary lies exactly in the plane, to the last bit.
 #pragma once
 
 #include <string>
@@ -45,7 +45,7 @@ struct HalfModelReport {
   bool was_half = false;              ///< nothing was beyond the plane
   std::size_t n_solids_left_out = 0;  ///< solids entirely beyond the plane
   bool was_united = false;
-  std::size_t n_faces_cut = 0;    ///< faces that cross the plane; 0: edges of the model lie along it, so faces were only selected
+  std::size_t n_faces_cut = 0;    ///< number of faces that cross the plane; 0 if edges of the model lie along it, so that faces were only selected
   std::size_t n_faces_split = 0;  ///< closed faces that were split into halves, because their seams lie in the plane
   std::size_t n_flat_faces = 0;   ///< faces in the plane, removed
   std::size_t n_rim_edges = 0;

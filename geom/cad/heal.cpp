@@ -35,8 +35,8 @@
 namespace sterna::cad {
 namespace {
 
-/// Gaps that sewing tries to close if the user sets no tolerance, relative to the longest side. Starts at the resolution of common modellers; 1e-5 of an
-/// airliner is 0.6 mm: larger tolerances would sew thin trailing edges together.
+/// Gaps that sewing tries to close if the user sets no tolerance, relative to the longest side. The first one is the resolution of common modellers. The last
+/// one is 0.6 mm for an airliner; larger tolerances would sew thin trailing edges together.
 constexpr std::array<double, 3> k_sew_ladder = {1e-7, 1e-6, 1e-5};
 /// Sewing beyond this fraction of the shortest edge merges its two ends.
 constexpr double k_sew_of_shortest_edge = 0.25;
@@ -240,7 +240,7 @@ bool is_closed(const TopoDS_Shape& shape) {
   return true;
 }
 
-/// Computes the volume about the middle of the box: relative to a distant reference point a narrow gap would count as volume. Nothing for open shapes.
+/// Computes the volume about the middle of the box: relative to a distant reference point a narrow gap would count as volume. Returns nothing for open shapes.
 double volume_of(const TopoDS_Shape& shape, const gp_Pnt& about) {
   if (!is_closed(shape)) return 0.0;
   GProp_GProps properties(about);
@@ -256,8 +256,8 @@ Extent extent_of(const TopoDS_Shape& shape) {
 
 bool is_same_extent(double before, double after) { return std::abs(after - before) <= k_extent_change * before; }
 
-/// Accepts the result of a step that removes small entities, unless it changed area or volume: then the step did more harm than good. A strip along a long
-/// trailing edge is such a case: a smaller fraction of the area than of the volume of a thin wing.
+/// Accepts the result of a step that removes small entities, unless it changed area or volume: then the step did more harm than good. An example is a strip
+/// along a long trailing edge: removing it can change the volume of a thin wing by a larger fraction than its area.
 void accept(ShapePart& part, LabelledShape& labelled, const TopoDS_Shape& result, const Handle(ShapeBuild_ReShape) & changes, std::size_t n_notes_before,
             const char* what, CadReport& report) {
   if (result.IsNull()) return;
@@ -381,8 +381,8 @@ void sew_open_parts(LabelledShape& labelled, const std::vector<TopoDS_Shape>& op
   for (TopExp_Explorer f(best->SewedShape(), TopAbs_FACE, TopAbs_SHELL); f.More(); f.Next()) add(f.Current());
 }
 
-/// Joins faces first by tolerances that are small relative to the model; then pairs of edges that share their ends but bulge apart, by the gap found between
-/// them.
+/// Joins faces in two steps: first with tolerances that are small relative to the model; then pairs of edges that share their ends but bulge apart, with the
+/// gap between them as tolerance.
 void join_faces(LabelledShape& labelled, const ReadCadOptions& options, double size, double small, CadReport& report, const Message_ProgressRange& progress,
                 const RunContext& context) {
   Message_ProgressScope steps(progress, "joining", 2.0);
@@ -392,7 +392,7 @@ void join_faces(LabelledShape& labelled, const ReadCadOptions& options, double s
   sew_open_parts(labelled, open, sewing_tolerances(options, size, shortest_edge(open, small)), true, report, first, context);
   if (!is_automatic(options.sew_tolerance)) return;
   open = open_shapes(labelled);
-  constexpr double k_margin = 1.1;  // the gap is measured at samples
+  constexpr double k_margin = 1.1;  // the gap is measured at samples only, so it may be larger between them
   if (const double gap = k_margin * gap_of_pairs(open, small); gap > 0.0) sew_open_parts(labelled, open, {gap}, false, report, steps.Next(), context);
 }
 

@@ -1,5 +1,5 @@
-// Converts OpenCASCADE's topology to the columns of a Model. Steps: collect the faces of every part once; give every edge its curves; corners, edges and
-// borders by identity (IsSame); names from labels, then from the parts.
+// Converts OpenCASCADE's topology to the columns of a Model. Steps: collect the faces of every part once; give every edge its curves; number corners, edges and
+// borders by identity (IsSame); take names from labels, else from the parts.
 #include <BRepLib.hxx>
 #include <BRepTools.hxx>
 #include <BRep_Tool.hxx>
@@ -149,8 +149,8 @@ class ModelBuilder {
     return border;
   }
 
-  /// Returns the edges head to tail: by corner, and where several edges leave a corner (seams) by parameter. Edges inside or outside of the border (INTERNAL,
-  /// EXTERNAL) are excluded.
+  /// Returns the edges of a wire head to tail. The next edge starts at the corner where the last one ends; if several edges do (seams), the parameters decide.
+  /// Edges inside or outside of the border (INTERNAL, EXTERNAL) are excluded.
   std::vector<WireEdge> edges_in_order(const TopoDS_Wire& wire, const TopoDS_Face& forward) const {
     std::vector<WireEdge> edges;
     for (TopoDS_Iterator it(wire); it.More(); it.Next()) {

@@ -29,7 +29,7 @@
 namespace sterna::cad {
 namespace {
 
-/// Pieces along each parameter of a face or edge: boxes a few per cent of a wing's chord and span.
+/// Number of pieces along each parameter of a face or edge. The boxes of the pieces then measure a few per cent of a wing's chord and span.
 constexpr int k_pieces = 48;
 
 Box box_of(const Bnd_Box& bounds) {

@@ -30,7 +30,7 @@ struct FaceLabel {
   std::string name;
   std::optional<std::array<float, 3>> colour;
   std::string layer;
-  std::string component = {};  ///< takes precedence over the component of the part: sewing joins faces of several
+  std::string component = {};  ///< takes precedence over the component of the part, since sewing may join faces of several components in one part
   bool is_empty() const { return name.empty() && !colour && layer.empty(); }
 };
 

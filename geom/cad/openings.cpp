@@ -77,7 +77,7 @@ double distance_of(const FreeEdge& a, const FreeEdge& b) {
   return largest;
 }
 
-/// Edges that run back and forth enclose no area: that of such a face is below this fraction of the square of its border's length.
+/// A face whose border runs back and forth encloses no area. It is recognised by an area below this fraction of the square of the border's length.
 constexpr double k_no_area = 1e-8;
 bool has_area(const TopoDS_Face& face) {
   GProp_GProps area, border;

@@ -1,4 +1,4 @@
-// Steps of the reader: translate, unit, repair, model, report.
+// The reader translates the file, applies its unit, repairs the shape, makes the model and writes the report.
 #include "geom/cad/read_cad.h"
 
 #include <BRepGProp.hxx>
@@ -27,7 +27,7 @@ namespace {
 /// Expected size range of an aircraft, a rotor or a wind-tunnel model, metres; outside it a warning about the unit is issued, but the unit is never changed.
 constexpr double k_smallest_size = 0.3;
 constexpr double k_largest_size = 400.0;
-/// A warning is also issued for a smaller model whose numbers would be an aircraft in metres.
+/// A warning is also issued for a model smaller than this, metres, if its numbers, read as metres, would give the size of an aircraft.
 constexpr double k_small_size = 2.0;
 constexpr Interval k_aircraft = {5.0, 120.0};
 

@@ -12,8 +12,8 @@
 
 namespace sterna {
 
-/// The OpenCASCADE representation of a Model: a compound of solids, shells and loose faces whose i-th face is face i of the Model. Immutable and shared;
-/// opaque, since OpenCASCADE's headers stay inside geom/cad.
+/// The OpenCASCADE representation of a Model: a compound of solids, shells and loose faces whose i-th face is face i of the Model. The object is immutable and
+/// shared. Its content is hidden, because OpenCASCADE's headers stay inside geom/cad.
 class CadShape {
  public:
   struct Content;  ///< occt_shape.h

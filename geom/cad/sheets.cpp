@@ -1,5 +1,5 @@
-// Steps: find the parts that are closed solids; for each other part: test if the option selects it, else if it is flat, on a solid's edges, or within solids;
-// warn for each removed part.
+// Steps: find the parts that are closed solids. Test for each other part if the option selects it, or else if it is flat, on a solid's edges, or within solids.
+// Warn for each removed part.
 #include "geom/cad/sheets.h"
 
 #include <BRepAdaptor_Curve.hxx>

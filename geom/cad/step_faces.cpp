@@ -1,5 +1,5 @@
-// Steps for each face on a closed surface: loops without seams; their course in the parameters, unwrapped; test for a natural border that would be lost; an
-// angle that no hole crosses; rotation of the surface to that angle; a loop along the seam.
+// Steps for each face on a closed surface: remove seams from its loops; follow the loops in the parameters, unwrapped; test if a natural border would be lost;
+// find an angle that no hole crosses; rotate the surface to that angle; add a loop along the seam.
 #include "geom/cad/step_faces.h"
 
 #include <BRep_Tool.hxx>
@@ -69,7 +69,7 @@ struct PoledSurface {
   bool is_u = true;                 ///< closed in u, poles at the ends of v
   double from = 0.0, period = 0.0;  ///< range of the closed direction
   std::array<gp_Pnt, 2> poles;
-  double pole_size = 0.0;  ///< nearer points belong to a pole, where the circumferential parameter is undefined
+  double pole_size = 0.0;  ///< points nearer to a pole than this belong to it; the circumferential parameter is undefined there
   gp_Pnt2d at(double around, double along) const { return is_u ? gp_Pnt2d(around, along) : gp_Pnt2d(along, around); }
 };
 
@@ -78,9 +78,9 @@ struct Hole {
   std::vector<StepEdge> edges;
   Handle(StepShape_FaceBound) bound;  ///< bound in the file; null if seams were cut out of it
   bool orientation = true;
-  double low = 0.0, high = 0.0;  ///< unwrapped, in the closed direction
-  double winding = 0.0;          ///< in periods
-  double area = 0.0;             ///< in the parameters, counterclockwise positive
+  double low = 0.0, high = 0.0;  ///< range of the hole in the closed direction, unwrapped (may exceed one period)
+  double winding = 0.0;          ///< number of turns around the closed direction
+  double area = 0.0;             ///< area enclosed in the parameters, positive if counterclockwise
   bool meets_pole = false;       ///< the course jumps from one meridian to another, so winding and area are undefined
 };
 

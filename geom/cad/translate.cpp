@@ -287,7 +287,7 @@ Translated translate_step(std::string_view bytes, const std::string& source, con
   return result;
 }
 
-/// Returns true if the last record belongs to the terminate section: in the fixed format column 73 gives the section of a record.
+/// Returns true if the last record belongs to the terminate section. In the fixed format, column 73 gives the section of a record.
 bool has_iges_end(std::string_view bytes) {
   constexpr std::size_t k_section_column = 72;
   const std::size_t last = bytes.find_last_not_of(" \t\r\n");

@@ -1,4 +1,4 @@
-// Steps of an attempt: intersections, build, origins of the faces, model, check.
+// An attempt finds the intersections, builds the result, finds the origins of its faces, makes the model and checks it.
 #include "geom/cad/try_boolean.h"
 
 #include <BRepAlgoAPI_BooleanOperation.hxx>

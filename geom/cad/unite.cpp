@@ -1,5 +1,5 @@
-// OpenCASCADE's general fuse with increasing tolerances, after a check of the contacts. Steps of an attempt: intersections, fuse, origins of the faces, model,
-// verification. If no tolerance is sufficient, pairs that touch are tried one by one, to name the pair that fails.
+// OpenCASCADE's general fuse with increasing tolerances, after a check of the contacts. An attempt finds the intersections, fuses the shapes, finds the origins
+// of the faces, makes the model and verifies it. If no tolerance is sufficient, pairs that touch are tried one by one, to name the pair that fails.
 #include "geom/cad/unite.h"
 
 #include <BRepBndLib.hxx>

@@ -1,5 +1,5 @@
-// Steps: splines for geometry without an exact form, the shape without placements, an extended document (XDE) with names, colours and layers, the format's
-// writer, a header without date.
+// Steps: approximate geometry without an exact form by splines; make the shape without placements; create an extended document (XDE) with names, colours and
+// layers; run the format's writer; remove the date from the header.
 #include "geom/cad/write_cad.h"
 
 #include <APIHeaderSection_MakeHeader.hxx>
@@ -170,7 +170,7 @@ double size_of(const Model& model) {
   return std::max({high.x - low.x, high.y - low.y, high.z - low.z});
 }
 
-/// Largest error of refitting, relative to the longest side: a tenth of the sewing tolerance of other programs.
+/// Largest error of refitting, relative to the longest side. It is a tenth of the sewing tolerance of other programs.
 constexpr double k_refit_share = 1e-6;
 
 Model exact_for_export(const Model& model, const std::string& name, const WriteCadOptions& options, const RunContext& context) {

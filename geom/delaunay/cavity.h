@@ -42,7 +42,8 @@ struct Cavity {
   std::vector<HalfedgeId> stack;
 };
 
-/// Collects the cavity of vertex `p` at `location` (inside, on_edge or outside). Criterion: bool conflicts(mesh, triangle, p) for real triangles.
+/// Collects the cavity of vertex `p` at `location` (inside, on_edge or outside). A Criterion has the function bool conflicts(mesh, triangle, p), called for
+/// real triangles only.
 /// \post the cavity is strictly star-shaped from p; for an edge, both of its triangles belong to it
 template <class Criterion>
 void grow_cavity(const Triangulation& mesh, VertexId p, const Location& location, const Criterion& criterion, Cavity& cavity) {

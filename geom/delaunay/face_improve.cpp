@@ -12,7 +12,7 @@ namespace {
 constexpr double k_short = 0.5;
 /// Cotangent of 30 degrees: smallest angle that a collapse may create.
 constexpr double k_collapse_cotangent = 1.732;
-/// Cotangent of 25 degrees: a vertex with a smaller angle is removed if that improves its neighbourhood.
+/// Cotangent of 25 degrees. A vertex with a smaller angle is removed if that improves its neighbourhood.
 constexpr double k_steep_cotangent = 2.14;
 /// Cotangent of 42 degrees: below this angle a move must increase the smallest angle of a star, above it only the mean shape.
 constexpr double k_poor_cotangent = 1.11;
@@ -110,7 +110,7 @@ ShapeStep shape_step(const Ring& ring, const Point& at, const SurfaceFrame& fram
     const double a1 = dot(a, t1), a2 = dot(a, t2), b1 = dot(b, t1), b2 = dot(b, t2);
     const double r = 1.0 / (a1 * b2 - a2 * b1);  // reciprocal of twice the area
     if (!(r > 0.0)) return {};
-    // q: squared edges, and its gradient; w: gradient of twice the area; f = q r.
+    // f = q r, where q is the sum of the squared edges. (q1, q2) is the gradient of q, and (w1, w2) that of twice the area.
     const double f = r * (a1 * a1 + a2 * a2 + b1 * b1 + b2 * b2 + side.length2);
     const double q1 = -2.0 * (a1 + b1), q2 = -2.0 * (a2 + b2), w1 = a2 - b2, w2 = b1 - a1;
     g1 += r * (q1 - f * w1);

@@ -11,13 +11,13 @@
 namespace sterna::delaunay {
 namespace {
 
-/// A triangle follows the surface if its normal is within 40 degrees of the surface's: flips may rotate it by up to 60.
+/// A triangle follows the surface if its normal is within 40 degrees of the surface's (flips may rotate it by up to 60) and its sag is below k_max_sag.
 constexpr double k_unfolded_cosine = 0.766;
-/// ... and the distance of the surface point at its centre from its plane is less than this fraction of its longest edge.
+/// Largest sag: distance of the surface point at the triangle's centre from its plane, relative to its longest edge.
 constexpr double k_max_sag = 0.2;
 /// Unfolding continues only for triangles larger than this multiple of the target edge length: smaller ones have the requested size.
 constexpr double k_unfold_floor = 0.7;
-/// ... and no vertex is nearer to another than this fraction of the target edge length.
+/// Unfolding inserts no vertex nearer to another one than this fraction of the target edge length.
 constexpr double k_unfold_spacing = 0.3;
 /// Circumradius relative to that of an equilateral triangle with the target edges, above which a triangle gets a vertex: that of a right angle between two
 /// target edges, so that the triangles of a regular lattice are not refined where it is bent (Rebay 1993).
@@ -25,13 +25,13 @@ constexpr double k_size_threshold = 1.2247;
 constexpr double k_size_threshold2 = k_size_threshold * k_size_threshold;
 /// Minimum distance of a new vertex from others, relative to the target length.
 constexpr double k_min_spacing = 0.65;
-/// In the second pass vertices may be nearer, since its target is angles.
+/// The same in the second pass, which improves angles and therefore permits nearer vertices.
 constexpr double k_min_spacing_for_quality = 0.5;
 /// The front's edge length changes by at most this factor from one layer to the next, so sizes change gradually.
 constexpr double k_front_growth = 1.5;
 constexpr double k_front_shrink = 0.7;
-/// Tolerance of a position, relative to the edge length. In the first pass errors would accumulate from layer to layer: with 0.02, 92 % of the vertices of a
-/// bicubic bump have six neighbours, with 0.002 96 %, and Newton's method rarely needs an additional step.
+/// Tolerance of a position, relative to the edge length. For the apexes of the first pass it must be smaller, since errors accumulate from layer to layer: with
+/// 0.02, 92 % of the vertices of a bicubic bump have six neighbours, with 0.002 96 %, and Newton's method rarely needs an additional step.
 constexpr double k_place_tolerance = 0.15;
 constexpr double k_apex_tolerance = 0.002;
 
@@ -159,7 +159,7 @@ void push_graded_size(FaceState& state, VertexId p, const Proposal& proposal) {
 /// few lines. (In order of creation, dents of a front grow from layer to layer, and every third vertex has five or seven neighbours.)
 struct SizeTask {
   FaceState& state;
-  bool is_front;                        ///< only beside edges of the target length
+  bool is_front;                        ///< true: vertices are proposed only beside edges of the target length
   Column<TriangleId, double> ratio2{};  ///< size_ratio2 of every triangle; infinite for flat ones
 
   void measure(const SurfaceTriangulation& mesh, TriangleId t) {
@@ -175,7 +175,7 @@ struct SizeTask {
   }
   bool propose(const SurfaceTriangulation& mesh, TriangleId t, Proposal& proposal) const {
     const Triangle tri = gather(state, t);
-    // The shortest edge; in a front, the shortest edge of the target length.
+    // Selects the shortest edge; in a front, the shortest edge beside a finished triangle.
     std::size_t k = 3;
     for (std::uint32_t c = 0; c < 3; ++c)
       if ((k == 3 || tri.edge2[c] < tri.edge2[k]) && (!is_front || is_done(mesh.mesh.cells[t].twin[c]))) k = c;

@@ -32,12 +32,12 @@ struct FaceBorder {
 using SizeFunction = std::function<double(Uv, const Point&)>;
 
 struct FaceMeshOptions {
-  double curvature_angle =
-      12.0 * std::numbers::pi / 180.0;  ///< rad: an edge spans at most this angle of the surface; for callers that derive sizes from it, not used by mesh_face
-  double min_edge = 0.0;                ///< m: lower limit of the target length from curvature
-  double size_growth = 0.3;             ///< growth rate of the edge length with distance, from curvature and from the border
-  double min_angle = 25.0 * std::numbers::pi / 180.0;  ///< rad: target of the second pass
-  int smoothing_sweeps = 6;                            ///< at most; only vertices beside triangles that can be improved are moved
+  double curvature_angle = 12.0 * std::numbers::pi / 180.0;  ///< rad: largest angle by which the surface turns along an edge; for callers that derive sizes
+                                                             ///< from it, not used by mesh_face
+  double min_edge = 0.0;                                     ///< m: lower limit of the target length from curvature
+  double size_growth = 0.3;                                  ///< growth rate of the edge length with distance, from curvature and from the border
+  double min_angle = 25.0 * std::numbers::pi / 180.0;        ///< rad: target of the second pass
+  int smoothing_sweeps = 6;                                  ///< at most; only vertices beside triangles that can be improved are moved
   int max_triangles = 20'000'000;
 };
 

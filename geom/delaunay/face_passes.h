@@ -5,8 +5,8 @@
 
 namespace sterna::delaunay {
 
-/// Inserts vertices by the empty circle of the plane until the triangles follow the surface well enough for measures in space to be meaningful: within
-/// k_unfolded_angle of its normals, or small. Then flips to the criterion of space.
+/// Inserts vertices by the empty circle of the plane until the triangles follow the surface well enough for measures in space to be meaningful: their normals
+/// are close to the surface's (k_unfolded_cosine), or they are small. Then flips to the criterion of space.
 void unfold(FaceState& state, FaceMeshReport& report, const RunContext& context);
 
 /// First pass: edges of the target length. New vertices complete triangles on edges of sufficient length, front by front (Rebay 1993); then vertices are

@@ -42,7 +42,7 @@ constexpr std::size_t k_flip_limit_factor = 64;
 }
 
 bool is_ahead(const Vec2& from, const Vec2& to, const Vec2& p) {
-  // On the line from -> to; the larger coordinate of the direction decides exactly.
+  // The point is on the line from -> to, so one coordinate in which the ends differ decides exactly.
   if (from.x != to.x) return from.x < to.x ? p.x > from.x : p.x < from.x;
   return from.y < to.y ? p.y > from.y : p.y < from.y;
 }

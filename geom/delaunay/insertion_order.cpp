@@ -60,7 +60,7 @@ std::uint64_t hilbert_key(std::uint32_t x, std::uint32_t y) {
   return key;
 }
 
-/// Mixes the bits of an index (splitmix64, Steele 2014): the round of a point must not depend on its position.
+/// Mixes the bits of an index (splitmix64, Steele 2014), because the round of a point must not depend on its position.
 std::uint64_t scramble(std::uint64_t i) {
   i += 0x9e3779b97f4a7c15u;
   i = (i ^ (i >> 30)) * 0xbf58476d1ce4e5b9u;

@@ -129,7 +129,7 @@ bool PlanarCriterion::conflicts(const Triangulation& mesh, TriangleId t, VertexI
     const Vec2 &a = mesh.uv[v[(k + 1) % 3]], &b = mesh.uv[v[(k + 2) % 3]];
     const int side = orient2d(a, b, place);
     if (side != 0) return side > 0;
-    // On the line of the edge: in conflict between its ends only.
+    // A place on the line of the edge is in conflict only if it lies between the ends of the edge.
     return a.x != b.x ? std::min(a.x, b.x) < place.x && place.x < std::max(a.x, b.x) : std::min(a.y, b.y) < place.y && place.y < std::max(a.y, b.y);
   }
   return incircle(mesh.uv[v[0]], mesh.uv[v[1]], mesh.uv[v[2]], place) > 0;

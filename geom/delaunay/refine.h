@@ -67,10 +67,10 @@ struct Proposal {
 
 /// Inserts vertices until no triangle has a priority, all proposals are rejected, or the limit is reached. A rejected proposal is not repeated until its
 /// neighbourhood has changed, so the refinement terminates.
-/// Task: void measure(surface, t): t is new or has changed, or one of its corners is new; called before any priority() of t and of its neighbours;
-/// double priority(surface, t): not positive if t is good or cannot be improved; never called for flat triangles;
-/// bool propose(surface, t, Proposal&): false if it has no proposal; void inserted(surface, p, proposal).
-/// Criterion: as for insert_vertex. `Flips`: flip to the 3-D criterion after each insertion.
+/// A Task has four functions. `void measure(surface, t)` is called if t is new or has changed, or one of its corners is new, always before any priority() of t
+/// and of its neighbours. `double priority(surface, t)` is not positive if t is good or cannot be improved; it is never called for flat triangles. `bool
+/// propose(surface, t, Proposal&)` returns false if it has no proposal. `void inserted(surface, p, proposal)` is called after an insertion.
+/// The `Criterion` is that of insert_vertex. With `Flips`, edges are flipped to the 3-D criterion after each insertion.
 template <bool Flips, class Criterion, class Task>
 RefineReport refine(SurfaceTriangulation& surface, const Criterion& criterion, Task& task, std::size_t max_insertions, const RunContext& context) {
   constexpr std::size_t k_stop_interval = 4096;

@@ -112,7 +112,7 @@ bool flip_in_turn(Triangulation& mesh, VertexId w, const std::vector<VertexId>& 
   return true;
 }
 
-/// Flips all edges from w to the pole's vertices, which are one edge in space: first moves the flat triangles to the apex on one side.
+/// Flips all edges from w to the pole's vertices, which are one edge in space. Before that, moves the flat triangles to the apex on one side.
 bool flip_pole_edge(SurfaceTriangulation& surface, HalfedgeId flat, std::vector<HalfedgeId>& changed) {
   PoleEdge edge;
   if (!find_pole_edge(surface, flat, edge)) return false;
@@ -133,7 +133,7 @@ void join(Triangulation& mesh, HalfedgeId h) {
     mesh.cells[triangle_of(out)].vertex[corner_of(out)] = b;
     ++mesh.cells[triangle_of(out)].stamp;
   }
-  // Each of the two triangles at the edge closes: its outer sides become neighbours. `kept` was the side that did not touch a.
+  // Each of the two triangles at the edge disappears, and its outer sides become neighbours. `kept` was the side that did not touch a.
   const auto close = [&](HalfedgeId kept, HalfedgeId moved, VertexId apex) {
     const HalfedgeId outer_kept = mesh.twin(kept), outer_moved = mesh.twin(moved);
     const EdgeFlags flags = mesh.flags(kept);
@@ -222,7 +222,7 @@ double worst_after_collapse(const SurfaceTriangulation& surface, HalfedgeId h) {
     if (mesh.is_constrained(out)) is_allowed = false;
     if (!is_allowed || x == b || y == b) return;
     is_allowed = mesh.turn(b, x, y) > 0;
-    // Beside a pole: flat triangles are ignored, before and after.
+    // Beside a pole, flat triangles are ignored, both before and after the edit.
     if (surface.stands_for[b] == surface.stands_for[x] || surface.stands_for[x] == surface.stands_for[y] || surface.stands_for[y] == surface.stands_for[b])
       return;
     is_allowed = is_allowed && normal_cosine(surface, b, x, y) >= k_min_normal_cosine;

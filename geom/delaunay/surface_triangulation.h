@@ -1,5 +1,5 @@
-// A triangulation on a curved surface: valid in the parameter plane by exact predicates, optimised by the empty sphere in 3-space (docs/method/surface.md,
-// "Delaunay criterion in space").
+// A triangulation on a curved surface. Exact predicates keep it valid in the parameter plane; the empty sphere in 3-space is the criterion for optimising it
+// (docs/method/surface.md, "Delaunay criterion in space").
 // Every vertex has a position in the (scaled) parameter plane, a point and a frame. Validity is decided in the plane, quality by the points in space. A pole,
 // many (u, v) of one point, is a run of vertices on the border that are represented by the first of them. A triangle with two such corners has no area in space
 // ("flat"); it is skipped by every measure and omitted at extraction. Flat triangles move along the pole if other triangles require their position
@@ -58,7 +58,7 @@ struct SurfaceTriangulation {
 /// Returns the power of two nearest to `speed` (metres per parameter), 1 if it is zero: the scale factor of (u, v).
 double scale_of_speed(double speed);
 
-/// Constrained Delaunay triangulation of the border in the scaled plane; no inner vertices yet.
+/// Returns the constrained Delaunay triangulation of the border in the scaled plane. It has no inner vertices yet.
 /// \post every segment of a loop is an edge with the domain on one side
 /// \throws Error(self_intersection) with the location in space where borders cross or touch along an edge; Error(bad_argument) if the domain is empty
 SurfaceTriangulation triangulate_border(const SurfaceBorder& border, Vec2 scale, const RunContext& context);

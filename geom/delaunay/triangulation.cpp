@@ -45,7 +45,7 @@ void flip(Triangulation& mesh, HalfedgeId h) {
     if (out.is_valid()) mesh.set_twin(out, at);
     mesh.outgoing[from] = at;
   };
-  // Left of d -> c: d, c, a in triangle t; right: c, d, b in triangle s.
+  // The triangle t = (d, c, a) is left of the edge d -> c, the triangle s = (c, d, b) is right of it.
   set(bc, c, out_ca, flags_ca);
   set(ca, a, out_ad, flags_ad);
   set(ad, d, out_db, flags_db);

@@ -22,8 +22,8 @@ Vec3 toward_of(double azimuth, double elevation) {
   return {std::cos(elevation) * std::cos(azimuth), std::cos(elevation) * std::sin(azimuth), std::sin(elevation)};
 }
 
-/// x downstream, y to the right wing, z upwards. iso: from ahead, left and above, more from the side than a true isometric view, so that the nose does not
-/// obscure the wing.
+/// Returns the named views. The axes are: x downstream, y to the right wing, z upwards. The view "iso" is from ahead, left and above, more from the side than a
+/// true isometric view, so that the nose does not obscure the wing.
 const std::array<NamedView, 7>& named_views() {
   static const std::array<NamedView, 7> views = {{{"iso", toward_of(k_degree * 232.0, k_degree * 28.0)},
                                                   {"front", {-1, 0, 0}},

@@ -20,7 +20,7 @@ constexpr std::array<Rgb, 12> k_patches = {{{110, 160, 208},
                                             {104, 196, 204},
                                             {90, 120, 170},
                                             {170, 100, 60}}};
-/// viridis at tenths.
+/// The colour map viridis at 0, 0.1, ..., 1.
 constexpr std::array<Rgb, 11> k_neutral = {{{68, 1, 84},
                                             {72, 36, 117},
                                             {65, 68, 135},

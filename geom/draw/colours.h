@@ -21,7 +21,7 @@ Rgb patch_color(std::size_t index, PatchKind kind = PatchKind::wall);
 Rgb kind_color(CellKind kind);
 Rgb patch_kind_color(PatchKind kind);
 
-/// neutral: dark blue over green to yellow (viridis, public domain); judged: blue is good, red is bad.
+/// `neutral` runs from dark blue over green to yellow (viridis, public domain). In `judged`, blue is good and red is bad.
 enum class Scale { neutral, judged };
 /// `share` in [0, 1], clamped; for judged, 1 is bad.
 Rgb scale_color(Scale scale, double share);

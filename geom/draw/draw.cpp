@@ -1,4 +1,4 @@
-// Main function: options to a scene, the scene to a picture, and the elements beside it.
+// Main function: converts options to a scene, draws the scene as a picture, and adds title, legend and axes.
 #include "geom/draw/draw.h"
 
 #include <algorithm>
@@ -19,7 +19,7 @@ using namespace draw;
 
 /// Fraction of the picture that is left free around its contents.
 constexpr double k_margin = 0.04;
-/// Distance of the eye in a perspective view, in radii: 17 degrees to each side.
+/// Distance of the eye in a perspective view, in radii. The picture then extends 17 degrees to each side.
 constexpr double k_eye = 3.4;
 constexpr Rgb k_paper{255, 255, 255};
 

@@ -12,14 +12,15 @@ namespace {
 
 /// Letter height relative to the height of a picture of the usual shape; never too small to read.
 constexpr double k_text_share = 0.020, k_least_text = 9.0;
-/// In letter heights: minimum width of the legend with a colour bar, minimum width with limits, and maximum width; width of the colour bar; line spacing.
+/// Lengths in letter heights: minimum width of the legend with a colour bar, minimum width with limits, and maximum width; width of the colour bar; line
+/// spacing.
 constexpr double k_least_panel = 10.0, k_panel_with_limits = 12.5, k_most_panel = 20.0, k_bar_width = 1.5, k_bar_height = 22.0, k_line = 1.55;
 constexpr int k_ticks = 6;
 /// Maximum number of colours of a legend inside the picture.
 constexpr std::size_t k_most_inset = 8;
-/// Marks nearer than this, in letter heights, have their numbers in one location.
+/// Marks nearer than this, in letter heights, share one label with their numbers.
 constexpr double k_same_mark = 1.5;
-/// Size of smaller letters, for remarks.
+/// Size of the smaller letters of remarks, relative to normal letters.
 constexpr double k_small = 0.8;
 constexpr Rgb k_frame_color{90, 96, 106};
 

@@ -17,7 +17,7 @@ namespace {
 
 /// Samples along each side of a pixel.
 constexpr int k_samples = 3;
-/// Pixels along a side of a tile: its samples (9 KB of depths and colours each) stay in the cache.
+/// Number of pixels along a side of a tile. A tile is so small that its 9216 samples, with a depth and a colour each, stay in the cache.
 constexpr int k_tile = 32;
 constexpr std::size_t k_polygon_chunk = 4096;
 /// Geometry nearer to the eye than this fraction of the distance is clipped.
@@ -26,7 +26,7 @@ constexpr double k_near = 0.02;
 constexpr double k_edges_fade = 1.5, k_edges_full = 6.0;
 constexpr double k_edge_opacity = 0.6;
 constexpr Rgb k_edge_color{20, 24, 32};
-/// Light from the upper left behind the viewer, a weaker one from the right; directions right, up, towards the viewer.
+/// Main light from the upper left behind the viewer, and a weaker one from the right. Components: to the right, up, towards the viewer.
 constexpr Vec3 k_key_light{-0.3482, 0.4975, 0.7945}, k_fill_light{0.7682, 0.0960, 0.6330};
 constexpr double k_ambient = 0.48, k_key = 0.50, k_fill = 0.14;
 
@@ -89,7 +89,7 @@ class Projector {
  private:
   struct Corner {
     Point point;
-    bool is_edge;  ///< to the next corner
+    bool is_edge;  ///< the side from this corner to the next is an edge of the polygon
   };
 
   /// Clips to the region in front of the eye.
@@ -208,7 +208,7 @@ class Tile {
     if (twice_area == 0.0 || !std::isfinite(twice_area)) return;
     std::array<Line, 3> lines;
     for (std::size_t k = 0; k < 3; ++k) lines[k] = line_of(t.x[k], t.y[k], t.x[(k + 1) % 3], t.y[(k + 1) % 3], twice_area < 0.0);
-    // Depth over the plane relative to corner 0: differences stay small, whatever the size of the scene.
+    // The depth is computed relative to corner 0, so that differences stay small, whatever the size of the scene.
     const double d1 = double{t.depth[1]} - t.depth[0], d2 = double{t.depth[2]} - t.depth[0];
     const double slope_x = (d1 * (double{t.y[2]} - t.y[0]) - d2 * (double{t.y[1]} - t.y[0])) / twice_area;
     const double slope_y = (d2 * (double{t.x[1]} - t.x[0]) - d1 * (double{t.x[2]} - t.x[0])) / twice_area;
@@ -236,7 +236,7 @@ class Tile {
         double nearest = std::numeric_limits<double>::infinity();
         for (std::size_t k = 0; k < 3; ++k)
           if ((t.edges >> k & 1) != 0) nearest = std::min(nearest, away[k]);
-        // Half of the line is on this side; it fades over the distance between samples.
+        // Half of the edge's width is drawn on this side; it fades over the distance between samples.
         const double cover = std::clamp((0.5 * options_.edge_width - nearest) * k_samples + 0.5, 0.0, 1.0);
         if (cover > 0.0) color_[at] = mixed(fill, edge, static_cast<float>(cover) * t.edge_opacity);
       }
@@ -263,13 +263,13 @@ class Tile {
 
   static Color of(Rgb c) { return {static_cast<float>(c.r), static_cast<float>(c.g), static_cast<float>(c.b)}; }
   static Color mixed(const Color& a, const Color& b, float share) { return {a.r + share * (b.r - a.r), a.g + share * (b.g - a.g), a.b + share * (b.b - a.b)}; }
-  /// Returns the first sample of the tile whose centre is not before a coordinate.
+  /// Returns the first sample of the tile whose centre is at a coordinate or behind it.
   static int sample_from(float at, int from, int to) {
     const double sample = std::ceil((double{at} - from) * k_samples - 0.5);
     return static_cast<int>(std::clamp(sample, 0.0, static_cast<double>((to - from) * k_samples)));
   }
 
-  /// Returns the first sample whose centre is behind it.
+  /// Returns the first sample of the tile whose centre is behind a coordinate.
   static int sample_after(float at, int from, int to) {
     const double sample = std::floor((double{at} - from) * k_samples - 0.5) + 1.0;
     return static_cast<int>(std::clamp(sample, 0.0, static_cast<double>((to - from) * k_samples)));

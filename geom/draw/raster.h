@@ -12,7 +12,7 @@ namespace sterna::draw {
 
 struct PolygonStyle {
   Rgb front, back;     ///< colours of the side to which the right-hand normal points, and of the other side
-  bool is_lit = true;  ///< shaded by its direction; else the unchanged colour
+  bool is_lit = true;  ///< shaded by its direction; false: drawn in the unchanged colour
   bool has_edges = true;
 };
 
@@ -36,9 +36,9 @@ struct RasterOptions {
   Rgb background{255, 255, 255};
 };
 
-/// Renders polygons. The nearest polygon is visible; at equal depth the first one. Edges are drawn as lines on their polygons: not visible where the polygon is
-/// not, drawn half on each of two neighbours, fading out where polygons are too small to distinguish. Samples on an edge belong to exactly one of the
-/// neighbours. The same bytes for any number of threads.
+/// Renders polygons. The nearest polygon is visible; at equal depth the first one. Edges are drawn as lines on their polygons, so they are visible only where
+/// the polygon is. One half of each line lies on each of the two neighbours. Lines fade out where polygons are too small to distinguish. Samples on an edge
+/// belong to exactly one of the neighbours. The same bytes for any number of threads.
 Image rasterise(const Polygons& polygons, const Camera& camera, const RasterOptions& options, const RunContext& context);
 
 }  // namespace sterna::draw

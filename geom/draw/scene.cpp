@@ -1,4 +1,4 @@
-// Steps: select patches, plane, and view; the faces of the patches, cut off in front of the plane; the polygons of the cut.
+// Steps: select patches, plane, and view; collect the faces of the patches and cut them off in front of the plane; add the polygons of the cut.
 #include "geom/draw/scene.h"
 
 #include <algorithm>
@@ -17,9 +17,10 @@
 namespace sterna::draw {
 namespace {
 
-/// Size of the view around a location, relative to its radius, along the plane's normal: the picture is wider than the circle.
+/// Radius of the part of the cut that is drawn, relative to the radius of the focus, in a view along the plane's normal; it is also widened to the picture's
+/// diagonal.
 constexpr double k_along_normal = 1.1;
-/// As k_along_normal for other views: cells are shown as a disc around the location.
+/// The same for other views, in which the drawn cells form a disc around the focus.
 constexpr double k_aslant = 1.0;
 /// Cosine between view direction and plane normal below which a plane is seen nearly edge-on and obscures nothing that needs to be cut off.
 constexpr double k_edge_on = 0.02;
@@ -120,14 +121,15 @@ class SceneBuilder {
     scene_.toward = is_turned ? -plane_->normal : plane_->normal;
   }
 
-  /// Half models are seen from the fluid side: the symmetry plane, or the surface's opening there, is behind the body, not in front of it.
+  /// Turns the view of half models to the fluid side, so that the symmetry plane, or the opening of the surface there, is behind the body and not in front of
+  /// it.
   void look_from_inside() {
     const Vec3 out = is_surface_ ? opening_normal() : symmetry_normal(mesh_);
     if (const double away = dot(scene_.toward, out); away > 0.0) scene_.toward -= 2.0 * away * out;
   }
 
-  /// Returns the unit normal out of a surface's opening; zero if it is closed: the area vectors of a closed surface sum to zero, those of an open one to the
-  /// missing area.
+  /// Returns the unit normal out of the opening of a surface; zero if the surface is closed. The area vectors of a closed surface sum to zero, those of an open
+  /// surface to the missing area.
   Vec3 opening_normal() const {
     Vec3 sum;
     double area = 0.0;

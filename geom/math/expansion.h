@@ -19,10 +19,10 @@
 
 namespace sterna::exact {
 
-/// Unit roundoff: fl(x op y) = (x op y)(1 + d), |d| <= k_unit.
+/// Unit roundoff: a floating-point operation gives fl(x op y) = (x op y)(1 + d) with |d| <= k_unit.
 inline constexpr double k_unit = 0x1p-53;
 
-/// sum + error == a + b exactly.
+/// Computes sum and error so that sum + error == a + b exactly.
 inline void two_sum(double a, double b, double& sum, double& error) {
   sum = a + b;
   const double b_part = sum - a;
@@ -33,13 +33,14 @@ inline void fast_two_sum(double a, double b, double& sum, double& error) {
   sum = a + b;
   error = b - (sum - a);
 }
-/// product + error == a * b exactly.
+/// Computes product and error so that product + error == a * b exactly.
 inline void two_product(double a, double b, double& product, double& error) {
   product = a * b;
   error = std::fma(a, b, -product);
 }
 
-/// h = e + f, returns the number of components; h holds at least e.size() + f.size() and overlaps neither. (Fast-Expansion-Sum.)
+/// Computes h = e + f and returns the number of components. h must hold at least e.size() + f.size() components and overlap neither operand.
+/// (Fast-Expansion-Sum.)
 inline std::size_t add(std::span<const double> e, std::span<const double> f, double* h) {
   std::size_t i = 0;
   std::size_t j = 0;
@@ -60,7 +61,7 @@ inline std::size_t add(std::span<const double> e, std::span<const double> f, dou
   return n;
 }
 
-/// h = b e, returns the number of components; h holds at least 2 e.size() and does not overlap e. (Scale-Expansion.)
+/// Computes h = b e and returns the number of components. h must hold at least 2 e.size() components and not overlap e. (Scale-Expansion.)
 inline std::size_t scale(std::span<const double> e, double b, double* h) {
   if (e.empty() || b == 0.0) return 0;
   std::size_t n = 0;
@@ -82,7 +83,8 @@ inline std::size_t scale(std::span<const double> e, double b, double* h) {
   return n;
 }
 
-/// h = e f, returns the number of components; h and work hold at least 2 e.size() f.size() each, term at least 2 e.size(); none overlap.
+/// Computes h = e f and returns the number of components. h and work must hold at least 2 e.size() f.size() components each, term at least 2 e.size(); none may
+/// overlap.
 inline std::size_t multiply(std::span<const double> e, std::span<const double> f, double* h, double* work, double* term) {
   if (f.empty()) return 0;
   // The sum alternates between the two buffers; start so that the last one is written to h.

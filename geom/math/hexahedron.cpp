@@ -21,7 +21,7 @@ using exact::Triple;
 
 /// Bisections of the cube before giving up; a cell that is then undecided has a Jacobian within 1e-5 of its largest value from zero.
 constexpr int k_max_bisections = 24;
-// Roundings of one of the up to eight summed determinants: orient3d's 8, seven additions, the division (a power of two) none.
+// Roundings of one of the up to eight summed determinants: 8 as in orient3d, and seven additions; the division by a power of two is exact.
 constexpr int k_hexahedron_roundings = 15;
 
 /// CGNS corner (0-7) at lattice position i, j, k in {0, 1}.
@@ -33,7 +33,7 @@ constexpr std::size_t slot(std::size_t p, std::size_t q, std::size_t r) { return
 
 struct Coefficients {
   std::array<double, 27> value;
-  double error;  ///< bound on the error of each
+  double error;  ///< bound on the error of each coefficient
 };
 
 Coefficients jacobian_coefficients(const std::array<Vec3, 8>& p) {
@@ -66,7 +66,7 @@ Coefficients jacobian_coefficients(const std::array<Vec3, 8>& p) {
   return result;
 }
 
-/// De Casteljau at the middle along the axis of stride 1, 3 or 9.
+/// Applies De Casteljau's rule at the middle along the axis of stride 1, 3 or 9.
 std::array<Coefficients, 2> bisect(const Coefficients& c, std::size_t stride) {
   Coefficients low = c;
   Coefficients high = c;
@@ -104,7 +104,7 @@ bool is_positive(const Coefficients& c, int bisections) {
 }  // namespace
 
 double hexahedron_volume(const std::array<Vec3, 8>& p) {
-  // Outward faces in CGNS order; relative to corner 0, whose three faces have a flux only if they are warped.
+  // Outward faces in CGNS order. The flux is taken relative to corner 0, whose three faces have a flux only if they are warped.
   constexpr std::size_t k_faces[6][4] = {{0, 3, 2, 1}, {0, 1, 5, 4}, {1, 2, 6, 5}, {2, 3, 7, 6}, {0, 4, 7, 3}, {4, 5, 6, 7}};
   double volume = 0.0;
   for (const auto& [a, b, c, d] : k_faces) volume += bilinear_flux(p[0], p[a], p[b], p[c], p[d]);

@@ -5,8 +5,8 @@
 namespace sterna {
 namespace {
 
-// Roundings carried by a term (rule at exact::Bounded): lift: difference twice, square, two additions (5); volume: minor (4), difference, product, two
-// additions (8); product, two additions.
+// Roundings carried by a term (rule at exact::Bounded). Lift: the difference twice, a square, two additions (5). Volume: minor (4), difference, product, two
+// additions (8). Then their product and two additions.
 constexpr int k_insphere_roundings = 17;
 
 template <class T>

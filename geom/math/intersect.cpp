@@ -3,9 +3,9 @@
 // Triangles are closed point sets; a triangle without area is the segment or the point that it covers. Two triangles of an indexed set cross
 // when they have a common point outside the convex hull (point, segment) of the vertices that they share.
 //
-// The usual cases are decided by the sides of each triangle's vertices on the other's plane and by lines that pierce triangles (the functions in
-// the first half). Whenever all the signs that prove a triangle to have area and the planes to differ vanish, the slow
-// path (second half) treats the two sets as segments and coplanar triangles.
+// The usual cases are decided by the sides of each triangle's vertices on the other's plane and by lines that pierce triangles (the functions in the first
+// half). If all the signs vanish that could prove that the triangles have area and different planes, the slow path (second half) treats the two sets as
+// segments and coplanar triangles.
 #include "geom/math/intersect.h"
 
 #include <algorithm>
@@ -21,7 +21,8 @@ using Corners = std::array<Vec3, 3>;
 
 // ---------------------------------------------------------------- planar geometry
 
-/// Projects onto a coordinate plane: exact, as it only drops a coordinate. Mirrors depending on the axis; callers compensate by orienting their triangles.
+/// Projects onto a coordinate plane. This is exact, because it only drops a coordinate. For some axes the projection mirrors; callers compensate for that by
+/// orienting their triangles.
 Vec2 project(const Vec3& p, int axis) {
   if (axis == 0) return {p.y, p.z};
   return axis == 1 ? Vec2{p.x, p.z} : Vec2{p.x, p.y};
@@ -123,7 +124,7 @@ bool segment_meets_triangle(const Segment& s, const Corners& t, int axis) {
   const int to = orient3d(t[0], t[1], t[2], s.to);
   if (from * to > 0) return false;
   if (from != to) return pierces(s.from, s.to, from, to, t);
-  // In the plane of t: separated by an edge of t, or by the segment's own line.
+  // The segment lies in the plane of t. It is apart if an edge of t, or its own line, separates the two.
   const Corners q = counter_clockwise(t, axis);
   if (edge_separates(q, std::array{s.from, s.to}, axis)) return false;
   const int side = orient(s.from, s.to, q[0], axis);
@@ -135,7 +136,7 @@ bool segments_meet(const Segment& s, const Segment& t) {
   auto axis = projection_axis(s.from, s.to, t.from);
   if (!axis) axis = projection_axis(s.from, s.to, t.to);
   if (!axis) axis = projection_axis(t.from, t.to, s.from);
-  // All on one line: intervals.
+  // If all points are on one line, compare intervals.
   if (!axis) return !is_before(s.to, t.from) && !is_before(t.to, s.from);
   const auto straddles = [&](const Segment& u, const Segment& v) { return orient(u.from, u.to, v.from, *axis) * orient(u.from, u.to, v.to, *axis) <= 0; };
   return straddles(s, t) && straddles(t, s);
@@ -161,7 +162,7 @@ bool ray_is_in_sector(const Vec3& p, const Corners& b, int axis) {
   return is_in_sector(q[0], q[1], q[2], p, axis);
 }
 
-/// Triangles with a common first corner: returns true if there are common points beyond it.
+/// Returns true if two triangles with a common first corner have common points besides that corner.
 bool cross_beyond_corner_slowly(const Corners& a, const Corners& b) {
   const auto axis_a = projection_axis(a[0], a[1], a[2]);
   const auto axis_b = projection_axis(b[0], b[1], b[2]);
@@ -172,23 +173,24 @@ bool cross_beyond_corner_slowly(const Corners& a, const Corners& b) {
   return is_same_ray(a[0], a[1], b[1]) || is_same_ray(a[0], a[1], b[2]) || is_same_ray(a[0], a[2], b[1]) || is_same_ray(a[0], a[2], b[2]);
 }
 
-/// Triangles with the common edge 0-1 and coplanar third corners: returns true if there are common points beyond the edge.
+/// Returns true if two triangles with the common edge 0-1 and coplanar third corners have common points besides that edge.
 bool cross_beyond_edge_slowly(const Corners& a, const Corners& b) {
   const auto axis_a = projection_axis(a[0], a[1], a[2]);
   const auto axis_b = projection_axis(b[0], b[1], b[2]);
   if (axis_a && axis_b) return orient(a[0], a[1], a[2], *axis_a) == orient(b[0], b[1], b[2], *axis_a);
   // A triangle with area has only the edge on the edge's line, on which the other one lies (if the edge is a point, neither has area).
   if (axis_a || axis_b) return false;
-  // The edge is a point: two segments that start there.
+  // The edge is a point, and the triangles are two segments that start there.
   if (a[0] == a[1]) return is_same_ray(a[0], a[2], b[2]);
-  // Both on the edge's line: beyond the same end of it.
+  // Both third corners are on the edge's line: the triangles overlap if these corners lie beyond the same end of the edge.
   const Segment edge = span_of_collinear(std::array{a[0], a[1]});
   return (is_before(a[2], edge.from) && is_before(b[2], edge.from)) || (is_before(edge.to, a[2]) && is_before(edge.to, b[2]));
 }
 
 // ---------------------------------------------------------------- two triangles that share a corner or an edge
 
-/// Triangles with a common first corner: as the intersection is convex, there is more than the corner iff the sectors at it have a common ray.
+/// Returns true if two triangles with a common first corner have more points in common. As the intersection is convex, this is so iff the sectors at the corner
+/// have a common ray.
 bool cross_beyond_corner(const Corners& a, const Corners& b) {
   const int side_1 = orient3d(b[0], b[1], b[2], a[1]);
   const int side_2 = orient3d(b[0], b[1], b[2], a[2]);
@@ -198,15 +200,15 @@ bool cross_beyond_corner(const Corners& a, const Corners& b) {
   const int inside = side_1 > side_2 ? -1 : 1;
   const int first = orient3d(a[1], a[2], b[0], b[1]);
   const int second = orient3d(a[1], a[2], b[2], b[0]);
-  // On both edges, so at the corner itself: a has no area.
+  // The point is on both edges, so it is the corner itself: a has no area.
   if (first == 0 && second == 0) return cross_beyond_corner_slowly(a, b);
   return first != -inside && second != -inside;
 }
 
 bool cross_beyond_edge(const Corners& a, const Corners& b) { return orient3d(a[0], a[1], a[2], b[2]) == 0 && cross_beyond_edge_slowly(a, b); }
 
-/// Moves the shared corners to the front, in the same order in both; returns their number. A repeated corner of a triangle counts once, and the copies stay
-/// behind it.
+/// Moves the shared corners to the front, in the same order in both triangles, and returns their number. A corner that a triangle repeats counts once; its
+/// copies stay behind the shared corners.
 std::size_t move_shared_to_front(std::array<std::uint32_t, 3>& a, std::array<std::uint32_t, 3>& b) {
   std::size_t n = 0;
   for (std::size_t i = 0; i < 3; ++i) {
@@ -228,8 +230,8 @@ bool triangles_intersect(const std::array<Vec3, 3>& a, const std::array<Vec3, 3>
   const auto b_on_a = sides_of(a, b);
   if (!b_on_a) return false;
   if (a_on_b->all_zero() || b_on_a->all_zero()) return triangles_meet_slowly(a, b);
-  // Both have area, in different planes: the intersection is a segment or point, each end of it on an edge of one and in the other. Edges within the
-  // other's plane add nothing: their ends, and what they cross, belong to other edges too.
+  // Both triangles have area, in different planes. The intersection is a segment or a point; each of its ends is on an edge of one triangle and in the other.
+  // Edges in the other's plane need no test: their ends, and the points where they cross edges, belong to other edges, too.
   return an_edge_pierces(a, *a_on_b, b) || an_edge_pierces(b, *b_on_a, a);
 }
 

@@ -15,8 +15,8 @@ namespace sterna {
 /// Returns true if two triangles have a common point. Exact.
 bool triangles_intersect(const std::array<Vec3, 3>& a, const std::array<Vec3, 3>& b);
 
-/// Returns true if two triangles of an indexed set intersect beyond their shared vertices, that is, in a point outside the convex hull of the shared vertices.
-/// Disjoint triangles: any common point. One shared vertex: any other common point. Shared edge: coplanar overlap. Three different shared vertices: always
+/// Returns true if two triangles of an indexed set have a common point outside the convex hull of their shared vertices. For disjoint triangles this is any
+/// common point, for one shared vertex any other common point, for a shared edge a coplanar overlap. For three different shared vertices the result is always
 /// true. Vertices are shared by index only: equal coordinates under two indices touch and therefore cross. Exact.
 /// \pre indices in range, coordinates finite
 bool triangles_cross(std::span<const Vec3> points, const std::array<std::uint32_t, 3>& a, const std::array<std::uint32_t, 3>& b);

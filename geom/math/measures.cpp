@@ -9,7 +9,7 @@
 namespace sterna {
 
 std::array<double, 2> tet_dihedral_range(const std::array<Vec3, 4>& p) {
-  // Edge i-j with the two other vertices k, l: the angle between the half-planes through them.
+  // Each entry is an edge i-j with the two other vertices k, l: its angle is that between the half-planes through k and l.
   constexpr std::size_t k_edges[6][4] = {{0, 1, 2, 3}, {0, 2, 1, 3}, {0, 3, 1, 2}, {1, 2, 0, 3}, {1, 3, 0, 2}, {2, 3, 0, 1}};
   std::array<double, 2> range = {std::numbers::pi, 0.0};
   for (const auto& [i, j, k, l] : k_edges) {
@@ -43,7 +43,7 @@ bool is_pyramid_valid(const std::array<Vec3, 5>& p) {
 }
 
 double pyramid_volume(const std::array<Vec3, 5>& p) {
-  // Seen from the apex only the base has a flux; its outward normal is that of 0 3 2 1.
+  // Relative to the apex only the base has a flux; its outward normal is that of 0 3 2 1.
   return bilinear_flux(p[4], p[0], p[3], p[2], p[1]);
 }
 

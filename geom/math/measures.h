@@ -42,8 +42,8 @@ bool is_pyramid_valid(const std::array<Vec3, 5>& p);
 double pyramid_volume(const std::array<Vec3, 5>& p);
 /// Returns true if the volume is positive. Exact sign test.
 bool is_tet_valid(const std::array<Vec3, 4>& p);
-/// Hexahedron with bilinear faces (CGNS order): volume by exact flux, and validity by the 27 Bernstein coefficients of the Jacobian with subdivision. The
-/// validity test is conservative: false if positivity could not be proved within the subdivision limit.
+/// The next two functions take a hexahedron with bilinear faces (CGNS order). The volume is computed from the exact flux. The validity is tested with the 27
+/// Bernstein coefficients of the Jacobian and subdivision; the test is conservative: false if positivity could not be proved within the subdivision limit.
 double hexahedron_volume(const std::array<Vec3, 8>& p);
 bool is_hexahedron_valid(const std::array<Vec3, 8>& p);
 

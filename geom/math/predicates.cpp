@@ -12,11 +12,11 @@ using exact::difference;
 using exact::Expansion;
 
 // Roundings carried by a term of each determinant as written below (rule at exact::Bounded).
-// orient2d: two differences, product, subtraction.
+// orient2d: two differences, one product, one subtraction.
 constexpr int k_orient2d_roundings = 4;
-// orient3d: minor as orient2d (4), difference, product, two additions.
+// orient3d: minor as in orient2d (4), one difference, one product, two additions.
 constexpr int k_orient3d_roundings = 8;
-// incircle: minor (4); lift: difference twice, square, addition (4); product, two additions.
+// incircle: minor (4); lift: the difference twice, a square, an addition (4); then a product and two additions.
 constexpr int k_incircle_roundings = 11;
 
 template <class T>

@@ -1,4 +1,4 @@
-// A vector outside the cap of its predecessors lies on the boundary of the new cap.
+// Based on the fact that a vector outside the cap of its predecessors lies on the boundary of the new cap.
 #include "geom/math/spherical_cap.h"
 
 #include <algorithm>

@@ -1,5 +1,6 @@
-// With the corner as origin, m = next/2, f = (next + o)/k, c = (next + o + r)/n with o, r the sums over the face's others and the rest, k and n node counts:
-// det(m, f, c) = det(next, o, r) / (2 k n). Differences, sums and products are what expansions do exactly.
+// The corner is the origin. o and r are the sums over the face's other nodes and over the rest of the cell's nodes; k and n are the node counts of face and
+// cell. Then the midpoint is m = next/2, the face's centroid f = (next + o)/k, the cell's centroid c = (next + o + r)/n, and det(m, f, c) = det(next, o, r) /
+// (2 k n). Expansions compute the remaining differences, sums and products exactly.
 #include "geom/math/sub_volumes.h"
 
 #include <algorithm>
@@ -15,8 +16,8 @@ using exact::Bounded;
 using exact::LongExpansion;
 using exact::Triple;
 
-/// Roundings carried by a term (rule at exact::Bounded): the three factors have one difference each and at most 0, 1 and 3 additions; two products, one
-/// subtraction, two additions of the dot product.
+/// Roundings carried by a term (rule at exact::Bounded). The three factors have one difference each and at most 0, 1 and 3 additions. Then follow two products,
+/// one subtraction, and the two additions of the dot product.
 constexpr int k_sub_volume_roundings = 3 + 4 + 5;
 
 template <class T>
@@ -31,8 +32,8 @@ T determinant(const Vec3& corner, const Vec3& next, std::span<const Vec3> others
   return dot(cross(sum_of_differences<T>(corner, others), sum_of_differences<T>(corner, rest)), exact::difference<T>(corner, next));
 }
 
-/// A computed six-fold sub-volume is certainly positive above this times the cube of the cell's size (root of the sum of its squared edges): three factors of
-/// at most that size, each within 7 roundings of its exact value, some 10 more when they are multiplied and summed; doubled.
+/// Above this value times the cube of the cell's size (root of the sum of its squared edges), a computed six-fold sub-volume is certainly positive. Its three
+/// factors are at most of that size, each within 7 roundings of its exact value; multiplying and summing add some 10 more. The sum is doubled.
 constexpr double k_certain = 64 * exact::k_unit;
 
 /// Returns the smallest six-fold sub-volume of a wedge relative to the cube of its size, visiting each of its nine edges and their two faces once.

@@ -1,13 +1,13 @@
-// The wedge (prism with bilinear sides): exact validity test, volume, quality.
+// Tests the validity of the wedge (prism with bilinear sides) exactly, and computes its volume and quality.
 //
 // With a, b the edges 0-1, 0-2 of the base, a', b' those of the top, and d_k the growth edges, the Jacobian of the trilinear map at height z
 // over corner k is N(z) . d_k with N(z) = (a + z (a' - a)) x (b + z (b' - b)). In Bernstein form over z its coefficients are
 //   b0 = (a x b) . d_k,   2 b1 = (a x b' + a' x b) . d_k,   b2 = (a' x b') . d_k,
 // which are the b0, b1, b2 of docs/method/validity.md, "Exact wedge test", free of cancelling terms. The Jacobian is positive along the growth edge iff b0 > 0,
-// b2 > 0 and (b1 >= 0 or b1^2 < b0 b2); linear in between the growth edges, so positive everywhere iff positive along all three.
+// b2 > 0 and (b1 >= 0 or b1^2 < b0 b2). It is linear between the growth edges, so it is positive everywhere iff it is positive along all three.
 //
-// Filter: only differences of coordinates are used, and a rounded difference is within one unit roundoff of the exact one relative to itself, however flat the
-// wedge is and however far from the origin. A prism of height 1e-6 times its edges is therefore decided here unless it is nearly inverted.
+// The floating-point filter uses only differences of coordinates, and a rounded difference is within one unit roundoff of the exact one relative to itself,
+// however flat the wedge is and however far from the origin. A prism of height 1e-6 times its edges is therefore decided here unless it is nearly inverted.
 #include <algorithm>
 #include <array>
 #include <limits>
@@ -26,11 +26,11 @@ using exact::Triple;
 
 enum class Verdict { invalid, valid, undecided };
 
-// Roundings carried by a term of a coefficient (rule at exact::Bounded): two differences, product, subtraction, for 2 b1 one addition of the two
-// cross products; then difference, product, two additions.
+// Roundings carried by a term of a coefficient (rule at exact::Bounded): two differences, one product, one subtraction, and for 2 b1 one addition of the two
+// cross products; then one difference, one product, two additions.
 constexpr int k_wedge_roundings = 9;
 constexpr double k_bound = (k_wedge_roundings + 1) * exact::k_unit;
-// Relative margin for comparing -2 b1 with 2 sqrt(b0) sqrt(b2): two roots, two products, and the bounds' own subtraction, 5 roundings; doubled.
+// Relative margin for comparing -2 b1 with 2 sqrt(b0) sqrt(b2): two roots, two products, and the subtraction in the bounds make 5 roundings, which are doubled.
 constexpr double k_root_margin = 10 * exact::k_unit;
 
 /// Returns the Bernstein coefficients of N(z), the middle one doubled.
@@ -106,7 +106,8 @@ bool is_wedge_valid(const WedgePoints& p) {
 }
 
 double wedge_volume(const WedgePoints& p) {
-  // Integral of the Jacobian: mean over the triangle of the three edges, mean over the height of the three coefficients, times 1/2.
+  // Integral of the Jacobian: its mean over the triangle is the mean of the three edges, its mean over the height that of the three coefficients; the area
+  // factor is 1/2.
   const Vec3 a = p[1] - p[0], b = p[2] - p[0];
   const Vec3 a_top = p[4] - p[3], b_top = p[5] - p[3];
   const Vec3 normal = cross(a, b) + 0.5 * (cross(a, b_top) + cross(a_top, b)) + cross(a_top, b_top);

@@ -16,7 +16,8 @@ constexpr double k_largest_opening = 0.2;
 
 /// Smallest diagonal of an outer wall relative to that of the boundary, both of bounding boxes.
 constexpr double k_least_outer = 0.25;
-/// Largest distance of the boundary behind an outer wall, relative to its extent along the wall normal: tolerance for walls that are not exactly flat.
+/// Largest distance by which the boundary may lie behind an outer wall, relative to its extent along the wall normal: tolerance for walls that are not exactly
+/// flat.
 constexpr double k_behind = 0.05;
 /// Number of directions in which the outermost boundary points are searched.
 constexpr std::size_t k_directions = 128;

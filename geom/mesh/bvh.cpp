@@ -1,4 +1,4 @@
-// BoxTree: built level by level from the root; all nodes of a level split their items independently.
+// Builds a BoxTree level by level from the root. All nodes of a level split their items independently.
 //
 // Each node is split at the median of the box centres along their longest extent, ties by item number. The shape of the tree depends only on the number of
 // items, and its content does not depend on the number of threads. Nodes are numbered level by level, so that two children are neighbours and parents come

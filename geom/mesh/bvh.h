@@ -32,8 +32,8 @@ class BoxTree {
 
   struct Node {
     Box box;
-    std::uint32_t first = 0;  ///< leaf: first entry in order(); inner: left child (right child is first + 1)
-    std::uint32_t count = 0;  ///< leaf: number of items; inner: 0
+    std::uint32_t first = 0;  ///< leaf: first entry in order(); inner node: left child (the right child is first + 1)
+    std::uint32_t count = 0;  ///< leaf: number of items; inner node: 0
   };
   /// Returns the nodes: the root first, children after their parents; empty if there are no items.
   std::span<const Node> nodes() const { return nodes_; }
@@ -56,7 +56,7 @@ inline bool overlap(const Box& a, const Box& b) {
 template <class Visit>
 void BoxTree::for_each_overlap(const Box& box, const Visit& visit) const {
   if (nodes_.empty()) return;
-  // Median splits: the depth is the logarithm of at most 2^31 items, and each level leaves one node behind.
+  // Median splits: the depth is at most the logarithm of 2^31 items, and one node per level stays on the stack.
   std::uint32_t stack[64];
   int n = 0;
   stack[n++] = 0;
@@ -95,9 +95,9 @@ class TriangleTree {
     TriangleId triangle;
     double t = 0.0;
   };
-  /// Returns all triangles that the ray p + t d, t >= 0, hits; sorted by t, then id. Triangles are closed and widened by the rounding error: a ray through an
-  /// edge or a vertex reports the triangles on both sides; a ray that passes an edge within rounding may do so, too. Triangles parallel to the ray or without
-  /// area are never hit.
+  /// Returns all triangles that the ray p + t d, t >= 0, hits; sorted by t, then id. Triangles are closed and widened by the rounding error. A ray through an
+  /// edge or a vertex therefore hits the triangles on both sides; a ray that passes an edge within rounding may do so, too. Triangles parallel to the ray or
+  /// without area are never hit.
   std::vector<RayHit> ray(const Point& p, const Vec3& direction) const;
   /// Returns the generalised winding number of a closed mesh about p: 1 inside for outward normals (Jacobson et al. 2013), hierarchical (Barill et al. 2018)
   /// with an error small enough to distinguish 0, 1, 2 (at most 0.05 in the tests). On the surface itself the value is a half, or undefined at edges.
@@ -105,7 +105,8 @@ class TriangleTree {
   const BoxTree& boxes() const { return tree_; }
 
  private:
-  /// Far-field moments of a tree node: moments of its area vectors a about the centre, with r from the centre to each triangle's centroid.
+  /// Far-field moments of a tree node. They are moments of its triangles' area vectors a about the centre of the node; r is the vector from the centre to a
+  /// triangle's centroid.
   struct FarField {
     Vec3 dipole;                     ///< sum of a
     std::array<double, 6> second{};  ///< sum of r a^T: xx, yy, zz, xy + yx, yz + zy, zx + xz

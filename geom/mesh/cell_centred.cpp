@@ -62,7 +62,7 @@ class OuterFaces {
   }
 
   bool has_any(std::uint64_t number) const { return has_any_[number] != 0; }
-  /// Returns a bit mask; bit f: face f of the cell is not a boundary face.
+  /// Returns a bit mask; bit f is set if face f of the cell is not a boundary face.
   unsigned inner(std::uint64_t number, const Cell& cell) const {
     unsigned bits = ~0u;
     if (has_any_[number] == 0) return bits;
@@ -90,7 +90,7 @@ class OuterFaces {
   std::vector<std::pair<std::uint64_t, std::uint32_t>> faces_;  ///< cell and slot, ascending
 };
 
-/// Returns the corners of a side of a column's cell, normal out of it; none where both lines have ended.
+/// Returns the corners of a side of a column's cell, with its normal out of the cell; none if both lines of the side have ended.
 Corners side_of(const HybridMesh& mesh, std::size_t column, std::size_t corner, int layer) {
   const LayerBlock::Side side = mesh.layers.side(column, corner, layer);
   Corners corners;
@@ -246,7 +246,7 @@ class TetLanes {
     return {(a + b + c + d) * 0.25, dot(b - a, cross(c - a, d - a)) / 6.0};
   }
 
-  /// Adds the tets first, first + 1, ..., n <= 4 of them.
+  /// Adds n <= 4 consecutive tets, starting with `first`.
   void add_cells(std::uint32_t first, std::size_t n, std::uint64_t number, CellCentredScan& scan) {
     std::array<lanes::Vec3x4, 4> p{};
     for (std::size_t k = 0; k < n; ++k)
@@ -313,7 +313,7 @@ class OtherCentres {
       const bool is_prismatic = layers.is_prismatic(c);
       for (int j = 0, n = layers.layers_of_column(c); j < n; ++j) {
         if (is_prismatic && is_amid_columns(layers, neighbours_, c, j)) {
-          j = std::max(j, n - 2);  // the same holds for all layers up to the last
+          j = std::max(j, n - 2);  // the same holds for all layers below the last one
           continue;
         }
         const std::uint64_t number = c * static_cast<std::uint64_t>(layers.n_layers) + static_cast<std::uint64_t>(j);

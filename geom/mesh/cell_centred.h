@@ -9,8 +9,8 @@
 
 namespace sterna::check_parts {
 
-/// Statistics over all faces and cells. Face ids: 8 cell + local number for sides of columns (corner 0..2) and tops (7) inside columns; k_of_slot + slot for
-/// other faces. Cell ids: cell numbers.
+/// Statistics over all faces and cells. Ids of faces inside columns: 8 * cell + local number (corner 0..2 for a side, 7 for a top). Ids of other faces:
+/// k_of_slot + slot. Ids of cells: cell numbers.
 struct CellCentredScan {
   static constexpr std::uint64_t k_of_slot = std::uint64_t{1} << 63;
   explicit CellCentredScan(const GateTable& limits);

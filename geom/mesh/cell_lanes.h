@@ -84,10 +84,10 @@ Packed determinants(const std::array<FaceShapes, N>& faces) {
   return magnitude(xx * yy * zz + xy * yz * xz + xz * xy * yz - xx * yz * yz - xy * xy * zz - xz * yy * xz) / all(k_of_cube);
 }
 
-/// Returns area / 6 over volume^(2/3) if it may be above `least`; else any value below `least`.
+/// Returns area / 6 over volume^(2/3) if the value may be above `least`; else any value below `least`.
 inline Packed cube_ratio(Packed area, Packed volume, Packed least) {
   const Packed sixth = area / all(6.0), squared = volume * volume;
-  // The cubes decide, except within their rounding and except for values that underflow or overflow.
+  // Comparing cubes decides, except within their rounding, and except for values that underflow or overflow.
   const Packed cubed = sixth * sixth * sixth, bound = least * least * least * squared;
   const auto is_below = (cubed < 0.999999 * bound) & (cubed > all(1e-290)) & (bound < all(1e290));
   Packed ratio = all(0.0);

@@ -97,7 +97,7 @@ double reach(std::span<const Point> corners, const Point& centre, const Vec3& di
   return reach;
 }
 
-/// Returns the distance at which the line from a cell's centre along d passes a face's centre, over the face's extent.
+/// Returns the distance between a face's centre and the line from a cell's centre along d, divided by the extent of the face.
 double skewness_of(const FaceShape& face, std::span<const Point> corners, const Point& cell, const Vec3& d, double share) {
   const Vec3 to_face = face.centre - cell;
   const Vec3 miss = to_face - (dot(face.area, to_face) / (dot(face.area, d) + k_tiny)) * d;
@@ -147,13 +147,13 @@ namespace {
 
 /// Powers for the tets at one cell's centre: V^8 / N^6 with V six times the volume and N tet_quality's `to_centre`; negative if a tet is inverted.
 struct TetPowers {
-  double around = k_great;        ///< least value of the tets with the face's centre
-  double cuts[2] = {-1.0, -1.0};  ///< least value for each cut of a quadrilateral
+  double around = k_great;        ///< least power of the tets formed with the face's centre
+  double cuts[2] = {-1.0, -1.0};  ///< least power of the tets of each cut of a quadrilateral
 };
 
-/// Computes the powers. Cross products of neighbouring corners serve all tets; `sign` as in worst_around_centre, with opposite sense.
+/// Computes the powers. Cross products of neighbouring corners are used for all tets. `sign` has the opposite sense of that in worst_around_centre.
 TetPowers tet_powers(const FaceShape& face, std::span<const Point> corners, const Point& cell, double sign) {
-  std::array<Vec3, 4> a, side, to_centre;  // corners from the cell's centre; cross products with the next corner, with the face's centre
+  std::array<Vec3, 4> a, side, to_centre;  // from the cell's centre: the corners, their cross products with the next corner, and those with the face's centre
   std::array<double, 4> a2;
   const std::size_t n = corners.size();
   const Vec3 c = face.centre - cell;

@@ -32,9 +32,11 @@ FaceShape face_shape(std::span<const Point> corners);
 struct CellShape {
   Point centre;
   double volume = 0.0;        ///< m^3
-  double aspect_ratio = 1.0;  ///< larger of: largest over smallest sum of face areas projected along an axis; a sixth of the total area over volume^(2/3)
+  double aspect_ratio = 1.0;  ///< the larger of two values: largest over smallest sum of face areas projected along an axis, and a sixth of the total area over
+                              ///< volume^(2/3)
   double openness = 0.0;
-  double determinant = 0.0;  ///< determinant of the sum of a a^T over the inner faces' areas a, each over their mean size; divided by 8, the value of a cube
+  double determinant = 0.0;  ///< determinant of the sum of a a^T over the areas a of the inner faces, each divided by their mean size; then divided by 8, the
+                             ///< value of a cube
 };
 /// Returns the measures of a cell. `inner`: bit f is set if face f of the kind's table is not a boundary face.
 CellShape cell_shape(const HybridMesh& mesh, const Cell& cell, unsigned inner = ~0u);
@@ -62,8 +64,8 @@ struct OuterFace {
 /// \pre 3 or 4 corners, normal out of the cell
 OuterFace outer_face(std::span<const Point> corners, const Place& cell);
 
-/// Returns the quality of checkMesh's face decomposition for tracking: all tets around the face centre, and the tets of the best of its cuts into triangles,
-/// must be positive on both sides. For a triangle both sets have the same quality. `other`: null at the boundary.
+/// Returns the quality of checkMesh's face decomposition for tracking. On both sides of the face, all tets around the face centre must be positive, and so must
+/// the tets of the best of its cuts into triangles. For a triangle both sets have the same quality. `other`: null at the boundary.
 double exact_face_tet_quality(const FaceShape& face, std::span<const Point> corners, const Point& cell, const Point* other);
 
 }  // namespace sterna::check_parts

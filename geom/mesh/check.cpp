@@ -1,5 +1,5 @@
-// The walker as a list of steps. Together they prove a tiling: positive cells that match face by face cover each point of the fluid equally often between two
-// boundaries; the boundary does not cross itself, and its fluid side is covered once.
+// The invariant walker as a list of steps. Together they prove a tiling. Positive cells that match face by face cover each point of the fluid equally often
+// between two boundaries. The boundary does not cross itself, and its fluid side is covered once.
 #include "geom/mesh/check.h"
 
 #include "geom/mesh/cell_centred.h"

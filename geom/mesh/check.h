@@ -27,9 +27,10 @@ enum class Violation {
   boundary_intersection,       ///< G2: boundaries cross each other or themselves
   envelope_intersection,       ///< G2: the interface between layers and tets crosses itself or a boundary
   invalid_cell,                ///< G3: exact wedge, pyramid, tet or hexahedron test
-  volume_mismatch,             ///< divergence theorem: layer cells against the wall-to-envelope flux; tets against the envelope-to-farfield flux
+  volume_mismatch,             ///< the cell volumes do not equal the flux (divergence theorem): wall-to-envelope flux for layer cells, envelope-to-farfield
+                               ///< flux for tets
   broken_line,                 ///< G1: two growth lines that share nodes, so that at least one has no nodes of its own (column meshes only)
-  overlapping_parts,           ///< tiling: a boundary whose fluid side is covered more than once or lies outside the mesh (closed boundaries only)
+  overlapping_parts,           ///< tiling: the fluid side of a boundary is covered more than once or lies outside the mesh (closed boundaries only)
   no_cells,                    ///< tiling: the mesh has no cell at all
   cell_within_rounding,        ///< G3: a valid cell whose volume or Jacobian is not above k_solver_margin in double precision (computed_volumes.h)
   negative_sub_volume,         ///< G4: a cell with a dual sub-volume that is not positive (exact)
@@ -57,12 +58,13 @@ struct Quality {
   Point worst_prism;               ///< location of min_wedge_quality
   Point worst_tet;                 ///< location of min_dihedral
   Point most_obtuse_tet;           ///< location of max_dihedral
-  /// Skew angle (13) of the prisms: fraction below 6, below 18, above 60 degrees. Pyramids and tets of columns over collapsed lines count as prisms above 60.
+  /// Fractions of the prisms with a skew angle, eq. (13), below 6, below 18 and above 60 degrees. Pyramids and tets of columns over collapsed lines count as
+  /// prisms above 60.
   double skew_below_6 = 0.0, skew_below_18 = 0.0, skew_above_60 = 0.0;
 };
 
-/// Layer coverage of one patch, by area (G12). Full: at least 0.9 of the target height along the wall normal. Compressed: below number of layers x first
-/// height.
+/// Layer coverage of one patch, by area (G12). Full: the layer has at least 0.9 of the target height along the wall normal. Compressed: its height is below the
+/// number of layers times the first height.
 struct PatchCoverage {
   std::string patch;
   double area = 0.0;                                                    ///< m^2 of wall
@@ -83,7 +85,7 @@ struct PeriodicMatchReport {
 /// Locations of the gates that decide the verdict for one solver class: gates that FAIL, or if none fails, gates that warn.
 struct ConsumerPlaces {
   Consumer consumer = Consumer::cell_centred;
-  std::optional<std::int64_t> n_places;  ///< separate locations; none if these gates have no locations, or some have too many to be kept
+  std::optional<std::int64_t> n_places;  ///< number of separate locations; empty if these gates have no locations, or some have too many items to be kept
   std::int64_t n_beyond = 0;             ///< cells, or nodes for node-centred solvers; gates with too many items to be kept are left out
 };
 
@@ -93,19 +95,19 @@ struct CheckReport {
   std::int64_t n_boundary_triangles = 0, n_boundary_quads = 0;
   std::vector<std::pair<Violation, std::int64_t>> counts;  ///< violations found, by kind; empty = VALID
   std::vector<CheckFinding> findings;                      ///< the first few of each kind, in mesh order
-  double layer_volume = 0.0, layer_volume_error = 0.0;     ///< m^3; error relative to layer_volume, limit 1e-11
+  double layer_volume = 0.0, layer_volume_error = 0.0;     ///< m^3, and error relative to layer_volume, limit 1e-11
   double tet_volume = 0.0, tet_volume_error = 0.0;         ///< the same two values for the tets
   double total_volume = 0.0;
   double dual_volume = 0.0;  ///< m^3, sum of all control volumes; equals total_volume to rounding
   Quality quality;
   std::vector<GateResult> gates;               ///< QUALITY, in the order of Measure; empty if quality was not requested
-  std::vector<ConsumerPlaces> verdict_places;  ///< in the order of k_consumers; empty if `gates` is
+  std::vector<ConsumerPlaces> verdict_places;  ///< in the order of k_consumers; empty if `gates` is empty
   Consumers consumers;                         ///< consumers that the states of `gates` refer to
   std::vector<PatchCoverage> coverage;         ///< per wall patch under layers, if the mesh has a layer request
   std::vector<PeriodicMatchReport> periodic;   ///< matching pairs of HybridMesh::periodic
-  bool is_complete = true;                     ///< false: indices out of range or points not finite, so that no other check was possible
+  bool is_complete = true;                     ///< false: indices are out of range or points are not finite, so that no other check was possible
   bool intersections_checked = false;          ///< G2 was requested and run
-  bool dual_checked = false;                   ///< G4 was run, since faces conform
+  bool dual_checked = false;                   ///< G4 was run; it needs faces that conform
   bool quality_measured = false;               ///< `quality` and `gates` are filled
   bool is_valid() const { return counts.empty(); }
   /// Returns the worst state of the QUALITY gates; not_checked if no gate was checked.
@@ -154,8 +156,8 @@ class LayerCheck {
 /// Checks a mesh.
 /// "Layer" means every cell except the explicit tets; "envelope" means the faces between layer and tets. Quads take part in the intersection test with both
 /// of their triangulations (planar quads with one).
-/// Proves or refutes: every face matched by vertex ids with opposite sense or a boundary face of exactly one patch; every cell valid by its exact test;
-/// boundaries and envelope free of crossings; no unused node; volumes consistent to 1e-11.
+/// The check proves or refutes: every face is matched by vertex ids with opposite sense, or is a boundary face of exactly one patch; every cell is valid by its
+/// exact test; boundaries and envelope are free of crossings; no node is unused; volumes are consistent to 1e-11.
 /// Column meshes are checked without making their cells explicit (matching over base edges), explicit meshes by sorting faces. Both checks are parallel and
 /// give the same report for any thread count.
 /// The dual mesh and the QUALITY gates need a conforming mesh: with a G1 violation they are "not checked". Gates of layers need columns. Gates that compare

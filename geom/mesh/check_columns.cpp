@@ -1,5 +1,5 @@
-// Sides of columns without making them explicit. Two columns that share a base edge with opposite sense have the same line nodes there, layer by layer. The
-// shape of the side (quad, triangle, nothing) follows from the two lines alone, so one test of the base edge proves all its faces. Every edge that is not
+// Matches sides of columns without making them explicit. Two columns that share a base edge with opposite sense have the same line nodes there, layer by layer.
+// The shape of the side (quad, triangle, nothing) follows from the two lines alone, so one test of the base edge proves all its faces. Every edge that is not
 // shared by exactly one column in each sense is open. Its faces go to the general matching, which reports the fault or finds their partners.
 #include "geom/mesh/check_parts.h"
 

@@ -1,4 +1,4 @@
-// Cells as computed by solvers: with rounded sums and products instead of exact signs.
+// Tests cells in the way solvers compute them: with rounded sums and products instead of exact signs.
 #include <algorithm>
 #include <array>
 #include <cmath>
@@ -69,7 +69,7 @@ double least_computed_sub_volume(CellKind kind, std::span<const Vec3> p) {
   for (const LocalFace& face : cell_faces(kind)) {
     const Point middle = mean_place(p, std::span(face.nodes).first(face.size));
     for (std::size_t k = 0; k < face.size; ++k) {
-      // The face runs a, b with its normal out of the cell, so (a, mid-edge, face, cell) has the opposite orientation.
+      // The face runs a, b with its normal out of the cell, so the tet (a, mid-edge, face, cell) has the opposite orientation.
       const Point &a = p[face.nodes[k]], &b = p[face.nodes[(k + 1u) % face.size]];
       const Point mid_edge = (a + b) / 2.0;
       least = std::min({least, relative_determinant(middle - a, mid_edge - a, centre - a), relative_determinant(mid_edge - b, middle - b, centre - b)});

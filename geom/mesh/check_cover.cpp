@@ -1,6 +1,6 @@
-// Faces, cells and crossings cannot distinguish a tiling from two meshes, one inside the other, that do not touch. The number of cells that cover a point is
-// the winding number of the boundary there. It is constant between boundaries, so one test per piece of boundary suffices: on the fluid side of every piece
-// it must be 1. At a point of a boundary triangle, without that triangle's own contribution, the winding number is the mean of its two sides, here 1/2.
+// Tests of faces, cells and crossings cannot distinguish a tiling from two meshes, one inside the other, that do not touch. The number of cells that cover a
+// point is the winding number of the boundary there. It is constant between boundaries, so one test per piece of boundary suffices: on the fluid side of every
+// piece the number must be 1. At a point of a boundary triangle, the winding number of all other triangles is the mean of the numbers on both sides, here 1/2.
 #include <cmath>
 #include <numbers>
 #include <numeric>
@@ -38,7 +38,7 @@ BoundarySurface collect_boundary(const HybridMesh& mesh, const FaceSlots& slots)
   return surface;
 }
 
-/// Labels pieces connected over edges that exactly two triangles share: nothing can separate the two sides of such an edge.
+/// Labels pieces connected over edges that exactly two triangles share, because nothing can separate the two sides of such an edge.
 std::vector<std::uint32_t> label_pieces(const TriMesh& mesh, const RunContext& context) {
   struct Edge {
     std::uint32_t lower, upper, triangle;

@@ -1,4 +1,4 @@
-// G2: all boundary faces and the envelope in one exact triangle-triangle test.
+// G2: tests all boundary faces and the envelope for crossings, in one exact triangle-triangle test.
 #include "geom/math/measures.h"
 #include "geom/math/predicates.h"
 #include "geom/mesh/check_parts.h"
@@ -27,7 +27,7 @@ void add_face(const HybridMesh& mesh, const FaceSlots& slots, std::uint32_t slot
 }
 
 CrossingCandidates collect_candidates(const HybridMesh& mesh, const FaceSlots& slots, const FaceMatch& match) {
-  std::vector<std::uint32_t> doubled;  // duplicates of a face that is tested once; reported by G1
+  std::vector<std::uint32_t> doubled;  // duplicates of a face, which is tested once; G1 reports the duplicates
   for (const FaceIssue& issue : match.issues)
     if (issue.violation == Violation::duplicate_marker) doubled.push_back(issue.slot);
   std::sort(doubled.begin(), doubled.end());

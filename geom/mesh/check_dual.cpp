@@ -1,4 +1,4 @@
-// G4: the dual mesh exists (every sub-volume positive, by exact signs where rounding leaves it undecided) and is closed.
+// G4: tests that the dual mesh exists (every sub-volume is positive, by exact signs where rounding leaves the sign open) and is closed.
 #include "geom/base/number_text.h"
 #include "geom/math/measures.h"
 #include "geom/mesh/check_parts.h"

@@ -14,7 +14,7 @@ namespace {
 /// Nodes per chunk of the matching loops; some 20 faces each.
 constexpr std::size_t k_used_node_chunk = 4096;
 
-/// A face without its lowest node a. Triangle (a, b, c), b < c; quad (a, b, d, c) in cyclic order, b < c, d opposite to a.
+/// A face without its lowest node a. Triangle (a, b, c): b < c. Quad (a, b, d, c) in cyclic order: b < c, and d is opposite to a.
 struct FaceKey {
   std::uint32_t b, c;
   std::uint32_t d;               ///< NodeId::k_invalid for a triangle
@@ -46,7 +46,7 @@ KeyedFace canonical(std::uint32_t slot, const Face& face) {
   return {at(0), {std::min(after, before), std::max(after, before), opposite, 2 * slot + (after > before ? 1u : 0u)}};
 }
 
-/// Classifies one face from all its occurrences, cells first (boundary slots are the highest).
+/// Classifies one face from all its occurrences. Cells come first, because boundary slots are the highest.
 void judge(const FaceSlots& slots, const FaceKey* face, std::size_t n, std::span<const double> tet_volumes, std::span<std::uint32_t> cap_neighbours,
            FaceMatch& match) {
   std::size_t n_cells = 0;

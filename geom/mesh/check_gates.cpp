@@ -39,7 +39,7 @@ void judge_gates(const HybridMesh& mesh, const CellNumbers& cells, const FaceSlo
   std::optional<GivenBoundary> given;
   if (scan.min_dihedral.has_beyond_hard() || (dual != nullptr && dual->edge_ratio.has_beyond_hard())) given.emplace(mesh);
   put(scan.min_dihedral.result(cell, [&](std::uint64_t id, double) {
-    if (dual == nullptr || id < cells.first_tetrahedron()) return std::optional<Forcing>();  // column cells: their own edges decide, not the boundary
+    if (dual == nullptr || id < cells.first_tetrahedron()) return std::optional<Forcing>();  // for cells of columns their own edges decide, not the boundary
     return given->min_dihedral(mesh.tetrahedra[id - cells.first_tetrahedron()], limits[Measure::min_dihedral].hard);
   }));
   put(scan.max_dihedral.result(cell));

@@ -1,5 +1,5 @@
-// G9: match of the layer's last cell with the tet above it. The ideal pair is a regular tet on a prism of 0.816 times its edge, which has three times its
-// volume.
+// G9: measures how well the layer's last cell matches the tet above it. The ideal pair is a regular tet on a prism of 0.816 times its edge, whose volume is
+// three times that of the tet.
 #include <algorithm>
 #include <cmath>
 #include <optional>
@@ -12,7 +12,7 @@
 namespace sterna::check_parts {
 namespace {
 
-/// Volume of the prism of the same base and height over that of the tet.
+/// Ratio of the volume of a prism to that of a tet of the same base and height.
 constexpr double k_regular_volumes = 3.0;
 
 struct InterfaceScan {
@@ -25,8 +25,8 @@ struct InterfaceScan {
   GateScan height, volume;  ///< ids are slots of the prism's face
 };
 
-/// Marks wall nodes at which multi-normal fans of opened ridges may begin: nodes on boundary triangles only. Where layers end on another wall, their sides
-/// are quadrilaterals of that wall. Empty without explicit prisms.
+/// Marks wall nodes at which multi-normal fans of opened ridges may begin: nodes that only have boundary triangles. (Where layers end on another wall, their
+/// sides are quadrilaterals of that wall.) Empty without explicit prisms.
 std::vector<std::uint8_t> possible_fan_feet(const HybridMesh& mesh) {
   std::vector<std::uint8_t> is_foot(mesh.prisms.empty() ? 0 : mesh.points.size(), 0);
   if (is_foot.empty()) return is_foot;
@@ -71,11 +71,13 @@ void judge_interface(const HybridMesh& mesh, const CellNumbers& cells, const Fac
           const Face face = slots.face(slot);
           const Cell cell = cells.cell(slots.owner(slot));
           if (face.size != 3) continue;
-          if (cell.kind != CellKind::prism) {  // beside a line that ends one layer below the others
+          if (cell.kind != CellKind::prism) {  // the cell lies beside a line that ends one layer below the others
             if (const std::optional<double> height = mean_last_height(mesh, slots, slot)) part.add_height(*height, edge_of(mesh, face), slot);
             continue;
           }
-          if (slots.prism_cap(slot) && std::any_of(face.nodes.begin(), face.nodes.begin() + 3, is_foot)) continue;  // multi-normal fan, beside its first cells
+          if (slots.prism_cap(slot) && std::any_of(face.nodes.begin(), face.nodes.begin() + 3, is_foot))
+            continue;  // the cell is in a multi-normal fan, beside
+                       // its first cells
           WedgePoints p;
           for (std::size_t k = 0; k < 6; ++k) p[k] = mesh.points[cell.nodes[k]];
           const double edge = edge_of(mesh, face);
@@ -96,7 +98,7 @@ void judge_interface(const HybridMesh& mesh, const CellNumbers& cells, const Fac
   const SlotItems face{slots, "top of "};
   const auto prove_height = [&](std::uint64_t id, double) {
     const std::uint64_t number = slots.owner(static_cast<std::uint32_t>(id));
-    if (gaps.empty() || number >= cells.first_prism()) return std::optional<Forcing>();  // not in a column, or the layer request is unknown
+    if (gaps.empty() || number >= cells.first_prism()) return std::optional<Forcing>();  // the face is not on a column, or the layer request is unknown
     return given.get().interface_height(number / static_cast<std::uint64_t>(mesh.layers.n_layers), gaps, limits[Measure::interface_height].hard);
   };
   const auto put = [&](GateResult result) {

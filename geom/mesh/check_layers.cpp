@@ -15,7 +15,7 @@ namespace {
 
 /// Relative slack of the requested growth ratio: lines are curved, so the lengths of their chords do not grow exactly by the ratio of the heights.
 constexpr double k_growth_slack = 0.01;
-/// Relative slack of n h0, the height below which a layer is compressed: covers rounding at the end of the line.
+/// Relative slack of the number of layers times the first height, the height below which a layer is compressed: covers rounding at the end of the line.
 constexpr double k_height_slack = 1e-9;
 constexpr std::size_t k_gate_line_chunk = 1024;
 constexpr const char* k_no_boundary_layer = "no boundary layer was requested (total_height, boundary_layer, or first_height from flow conditions)";
@@ -45,7 +45,7 @@ struct LayerScan {
   GateScan growth, angle, first_height, step;  ///< ids are lines
 };
 
-/// Items whose ids are lines. Their nodes are the base vertices, their cells those beside the wall if lines are columns.
+/// Items whose ids are lines. The nodes of an item are the base vertices; its cells are those beside the wall if lines are columns.
 struct LineItems {
   const HybridMesh& mesh;
   const LayerLines& lines;
@@ -85,7 +85,7 @@ class LineScanner {
 
   void add(std::uint32_t line) {
     const int n = lines_.n_layers(line);
-    if (fans_.around(line).empty()) return;  // its cells are not columns
+    if (fans_.around(line).empty()) return;  // the cells of the line are not in columns
     read_fan(line, n);
     if (lines_.are_columns() && is_request_usable_) read_height(line, n);
     if (n == 0) return;
@@ -114,7 +114,7 @@ class LineScanner {
       area_ += norm(normal) / 3.0;
       normals_.push_back(normalized(normal));
       vertex_normal_ += corner_angle(foot, a, b) * normals_.back();
-      // Each inner edge is the next edge of two lines and is evaluated from the lower one; an open-boundary edge from its only triangle.
+      // Each inner edge is the next edge of two lines and is evaluated at the lower one. An edge of the open boundary is evaluated at its only triangle.
       const int step = std::abs(n - lines_.n_layers(next));
       if (step == 0) {
         n_level += is_shared(line, next) ? 0.5 : 1.0;
@@ -252,7 +252,8 @@ PermittedHeights permitted_heights(const HybridMesh& mesh, const LayerLines& lin
 /// Areas of one patch by state of the layer.
 struct PatchAreas {
   double full = 0.0, reduced = 0.0, compressed = 0.0, collapsed = 0.0, attainable = 0.0, attained = 0.0;
-  double asked = 0.0, covered = 0.0;  ///< area with a requested boundary layer; area where the line covers its thickness or what the geometry permits
+  double asked = 0.0, covered = 0.0;  ///< m^2; `asked`: area with a requested boundary layer; `covered`: area where the line covers the thickness of that
+                                      ///< layer, or as much of it as the geometry permits
   std::map<std::string, double> lost;
   double total() const { return full + reduced + compressed + collapsed; }
   void add(const PatchAreas& more) {
@@ -353,13 +354,13 @@ void judge_coverage(const HybridMesh& mesh, const LayerLines& lines, const std::
   put(Measure::collapsed, collapsed, total);
 }
 
-/// The growth that was asked for replaces the default limit of most lines, up to the hard limit: a wing whose layers grew by 2, as asked for, had 10 % more
-/// drag.
+/// The requested growth ratio replaces the default limit of most lines, up to the hard limit. The hard limit stays, because a wing whose layers grew by the
+/// requested ratio of 2 had 10 % more drag.
 GateTable with_requested_growth(GateTable limits, const HybridMesh& mesh) {
   GateLimits& growth = limits[Measure::stack_growth];
   if (mesh.request.is_known() && growth.usual == info_of(Measure::stack_growth).limits.usual) {
     growth.usual = mesh.request.max_growth * (1.0 + k_growth_slack);
-    if (growth.hard < growth.usual) growth.usual = growth.hard;  // not where the hard limit is none
+    if (growth.hard < growth.usual) growth.usual = growth.hard;  // not if there is no hard limit
   }
   return limits;
 }

@@ -1,4 +1,4 @@
-// Shared by the check_*.cpp files only: numbering of cells and faces of a HybridMesh, collection of findings, and the steps of the walker.
+// Shared by the check_*.cpp files only: numbers of the cells and faces of a HybridMesh, the list of findings, and the steps of the walker.
 #pragma once
 
 #include <algorithm>
@@ -32,7 +32,7 @@ std::vector<T> concatenate(std::vector<T> all, std::vector<T> more) {
 class Findings {
  public:
   explicit Findings(int per_kind) : per_kind_(per_kind) {}
-  /// Counts one violation; `describe() -> CheckFinding-like {Point, string}` is called only when it is kept.
+  /// Counts one violation. `describe()` returns a Point and a string for the finding; it is called only if the finding is kept.
   template <class Describe>
   void add(Violation violation, const Describe& describe) {
     if (counts_[index(violation)]++ >= per_kind_) return;
@@ -74,19 +74,19 @@ class CellNumbers {
   std::array<std::uint64_t, 4> first_;
 };
 
-/// Three or four nodes, right-hand normal out of the cell (or out of the fluid); size 0: there is no such face.
+/// A face with three or four nodes, right-hand normal out of the cell (or out of the fluid); size 0: there is no such face.
 struct Face {
   std::array<NodeId, 4> nodes{};
   std::uint8_t size = 0;
 };
 
-/// A side of a column that no single other column shares: `corner` c is the base edge from line c to line c + 1.
+/// A side of a column that is not shared with exactly one other column. `corner` c means the base edge from line c to line c + 1.
 struct OpenSide {
   std::uint32_t column = 0;
   std::uint8_t corner = 0;
 };
 
-/// Numbers every face that is not proved inside the columns: bottoms and tops of columns, their open sides, faces of explicit cells, boundary faces.
+/// Numbers every face that the columns do not prove to be inside: bottoms and tops of columns, their open sides, faces of explicit cells, boundary faces.
 class FaceSlots {
  public:
   /// \throws Error(overflow) when the slots do not fit 31 bits (some 500 million tets).
@@ -179,21 +179,22 @@ std::string patch_name(const HybridMesh& mesh, PatchId patch);
 
 struct FaceIssue {
   Violation violation;
-  std::uint32_t n_cells;      ///< cells that have the face
-  std::uint32_t slot, other;  ///< slots of the face itself and of the second face concerned (or the same face)
+  std::uint32_t n_cells;      ///< number of cells that have the face
+  std::uint32_t slot, other;  ///< slots of the face and of the second face concerned (or twice the same slot)
   friend auto operator<=>(const FaceIssue&, const FaceIssue&) = default;
 };
 
 struct FaceMatch {
   std::vector<FaceIssue> issues;              ///< sorted
-  std::vector<std::uint32_t> outer;           ///< cell faces with a boundary face
-  std::vector<std::uint32_t> outer_boundary;  ///< the matching boundary face of each of them
-  std::vector<std::uint32_t> interface;       ///< faces that a layer cell and a tet share with opposite sense: the envelope
-  std::vector<std::uint32_t> interface_tets;  ///< the matching tet face of each of them
-  std::optional<GateScan> tet_growth;         ///< ids are slots; only if requested
+  std::vector<std::uint32_t> outer;           ///< slots of cell faces that are covered by a boundary face
+  std::vector<std::uint32_t> outer_boundary;  ///< slot of that boundary face, for each of `outer`
+  std::vector<std::uint32_t> interface;       ///< slots of the envelope: faces that a layer cell and a tet share with opposite sense
+  std::vector<std::uint32_t> interface_tets;  ///< slot of the tet's face, for each of `interface`
+  std::optional<GateScan> tet_growth;         ///< volume ratios; ids are slots; only if requested
   bool with_pairs = false;
-  std::vector<std::array<std::uint32_t, 2>> pairs;  ///< faces that two cells share; only if requested
-  std::vector<std::uint32_t> cap_neighbours;        ///< per bottom and top of explicit prisms: slot on the other side of a shared face, else k_no_slot
+  std::vector<std::array<std::uint32_t, 2>> pairs;  ///< slots of faces that two cells share; only if requested
+  std::vector<std::uint32_t> cap_neighbours;        ///< per bottom and top of explicit prisms: slot of the same face on the other side, or k_no_slot if no
+                                                    ///< other cell has it
 };
 inline constexpr std::uint32_t k_no_slot = 0xffffffffu;
 

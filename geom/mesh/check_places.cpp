@@ -1,5 +1,5 @@
-// Counts separate locations of items beyond a limit. Nodes of one item belong together, and so do nodes of items that share a cell: cells that touch each
-// other, or touch the same cell, form one location. One pass over all cells joins the nodes of all measures.
+// Counts separate locations of items beyond a limit. All nodes of an item belong together. Nodes of different items belong together if they share a cell, so
+// cells that touch each other, or touch the same cell, form one location. One pass over all cells joins the nodes of all measures.
 #include <algorithm>
 #include <atomic>
 #include <bit>
@@ -112,7 +112,7 @@ class PlaceCount {
     }
   }
 
-  /// Joins the flagged nodes of each cell, and sums per set the share of the cell volumes that belongs to its nodes.
+  /// Joins the flagged nodes of each cell. Sums for each set the share of the cell volumes that belongs to the set's nodes.
   void walk(const CellNumbers& cells, const RunContext& context) {
     volumes_ = over_all_cells(
         mesh_, cells, context, std::vector<double>(sets_.size(), 0.0), [&](const Cell& cell, std::vector<double>& volumes) { add(cell, volumes); },
@@ -130,7 +130,7 @@ class PlaceCount {
     return std::unique(roots.begin(), roots.end()) - roots.begin();
   }
 
-  /// Returns the volume in m^3: that of the cells if the items are or have cells; else each node has its share of the cells around it.
+  /// Returns the volume in m^3: that of the cells if the items are cells or have cells; else each node contributes its share of the cells around it.
   double volume(std::size_t set, const CellNumbers& cells) const {
     if (sets_[set]->cells.empty()) return volumes_[set];
     std::vector<std::uint64_t> numbers = sets_[set]->cells;
@@ -173,7 +173,7 @@ class PlaceCount {
   std::vector<double> volumes_;
 };
 
-/// Gates that decide the verdict for a consumer, as one set of items.
+/// Items of the gates that decide the verdict for a consumer, as one set.
 struct ConsumerItems {
   GateExtent extent;
   bool is_complete = true;  ///< true: every gate keeps all of its items

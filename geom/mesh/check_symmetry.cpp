@@ -1,4 +1,4 @@
-// G20: every symmetry patch lies in one plane: x, y or z = constant, else the best-fit plane.
+// G20: tests that every symmetry patch lies in one plane, which is x, y or z = constant, or else the best-fit plane.
 #include <cmath>
 #include <cstdio>
 
@@ -48,7 +48,7 @@ long double median(std::vector<long double> values) {
   return *middle;
 }
 
-/// Coordinates in extended precision: for an oblique plane the error is then that of node rounding, not that of products.
+/// A vector in extended precision: for an oblique plane the error is then that of the rounded nodes, not that of products.
 struct Wide {
   long double x = 0.0L, y = 0.0L, z = 0.0L;
   Wide() = default;
@@ -110,9 +110,9 @@ Wide area_vector(const HybridMesh& mesh, PatchId patch, const Wide& origin) {
   return sum;
 }
 
-/// Returns a plane through three nodes far from each other. Candidates are the half of all nodes nearest to the plane perpendicular to the area vector: a
-/// boundary node of the patch that is off tilts that plane slightly, but is not among the candidates. Uses the area vector itself if the patch has no area or
-/// the three nodes are collinear.
+/// Returns a plane through three nodes far from each other. Candidates are half of the nodes: those nearest to the plane perpendicular to the area vector. A
+/// boundary node off the plane tilts that vector slightly, but is not among the candidates. Uses the area vector itself if the patch has no area or the three
+/// nodes are collinear.
 Plane oblique_plane(const HybridMesh& mesh, PatchId patch, std::vector<NodeId> nodes) {
   const std::vector<NodeId> all = nodes;
   const Wide first(mesh.points[nodes.front()]);

@@ -1,6 +1,7 @@
-// Divergence theorem: the volume of the layer cells must equal the flux of x/3 through wall and envelope (and other boundary faces of layer cells), and the
-// volume of the tets the flux through envelope and outer boundary. The flux is summed in extended precision about the centre of the walls: a layer of
-// thickness h about a body of length L is the difference of fluxes that are L/h times larger, and must still be accurate to 1e-11.
+// Tests the volumes by the divergence theorem. The volume of the layer cells must equal the flux of x/3 through wall and envelope (and other boundary faces of
+// layer cells). The volume of the tets must equal the flux through envelope and outer boundary. The flux is summed in extended precision about the centre of
+// the walls: the volume of a layer of thickness h about a body of length L is the difference of fluxes that are L/h times larger, and must still be accurate to
+// 1e-11.
 #include <cmath>
 #include <cstdio>
 

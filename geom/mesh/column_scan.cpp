@@ -11,8 +11,8 @@ namespace {
 
 using namespace lanes;
 
-/// Error of a coefficient over the product of its three lengths: at most 10 roundings for each of six terms, each term at most the product (wedge.cpp,
-/// k_roundings); 2 b1 has twelve terms. Rounded up.
+/// Bound of a coefficient's error, divided by the product of its three lengths. There are six terms, each at most as large as the product and with at most 10
+/// roundings (wedge.cpp); 2 b1 has twelve terms. Rounded up.
 constexpr double k_coefficient_error = 64 * 0x1p-53;
 /// Margin for comparing -2 b1 with 2 sqrt(b0) sqrt(b2), as k_root_margin of wedge.cpp.
 constexpr double k_column_root_margin = 10 * 0x1p-53;

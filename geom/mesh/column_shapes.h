@@ -11,8 +11,8 @@
 
 namespace sterna::check_parts {
 
-/// Computes the results of cell_shape() and inner_face(), to the bit except for the angle (two roundings). Returned values are valid until the next call of
-/// the same member.
+/// Computes the results of cell_shape() and inner_face(). They are equal to the bit, except for the angle, which differs by two roundings. Returned values are
+/// valid until the next call of the same member.
 class ColumnShapes {
  public:
   explicit ColumnShapes(const HybridMesh& mesh) : mesh_(mesh) {}
@@ -20,13 +20,13 @@ class ColumnShapes {
   /// Sets the column for the members below.
   /// \pre none of its lines is collapsed
   void read(std::size_t column);
-  /// Returns its prisms from the wall up; their determinants as if no face were on the boundary.
+  /// Returns the shapes of the column's prisms from the wall up. Determinants are those without any face on the boundary.
   std::span<const CellShape> cells();
-  /// Writes only their centres and volumes to `places`, one per layer.
+  /// Writes the centres and volumes of the column's prisms to `places`, one per layer.
   void places(Place* places) const;
-  /// Returns the faces between its prisms, lowest first. \param places of its prisms; three more may be read
+  /// Returns the faces between the column's prisms, lowest first. \param places the places of the column's prisms; three more may be read
   std::span<const InnerFace> tops(const Place* places);
-  /// Returns the faces between its prisms and those of the column across a side.
+  /// Returns the faces between the column's prisms and those of the column across a side.
   std::span<const InnerFace> side(std::size_t corner, const Place* places, const Place* places_beyond);
 
  private:

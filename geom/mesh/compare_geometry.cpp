@@ -14,9 +14,9 @@ namespace sterna {
 namespace {
 
 constexpr std::size_t k_samples = 24;        ///< facets of a part that are searched in the result
-constexpr double k_near_of_length = 1e-3;    ///< a part is present if the result is within this distance, relative to the length of the whole surface
-constexpr double k_near_of_part = 0.05;      ///< or relative to the part's own length
-constexpr double k_share_of_division = 0.1;  ///< fraction of a part's samples from which a second part of the result counts
+constexpr double k_near_of_length = 1e-3;    ///< the result contains a part if it is within this distance, relative to the length of the whole surface
+constexpr double k_near_of_part = 0.05;      ///< the same distance, relative to the length of the part; the larger of both applies
+constexpr double k_share_of_division = 0.1;  ///< a part is divided if at least this fraction of its samples lies on a second part of the result
 constexpr std::uint32_t k_none = 0xffffffffu;
 
 struct Part {
@@ -57,7 +57,7 @@ Column<VertexId, std::uint32_t> places_of(const TriMesh& mesh) {
   return place;
 }
 
-/// Neighbour over each side, if the edge has exactly two facets.
+/// Neighbour across each side, if the edge has exactly two facets.
 struct Neighbours {
   std::vector<std::uint32_t> twin;  ///< half-edge 3 * triangle + corner; k_none
   std::vector<char> has_same_sense;
@@ -94,7 +94,7 @@ void match_sides(const TriMesh& mesh, const Column<VertexId, std::uint32_t>& num
   }
 }
 
-/// Finds neighbours by vertices first, so that parts with separate vertices stay apart where they touch; then by locations.
+/// Finds neighbours first by vertices, so that parts with separate vertices stay apart where they touch; then by locations.
 Neighbours neighbours_of(const TriMesh& mesh) {
   Neighbours result{std::vector<std::uint32_t>(3 * mesh.n_triangles(), k_none), std::vector<char>(3 * mesh.n_triangles(), 0)};
   Column<VertexId, std::uint32_t> own(mesh.n_vertices(), 0);
@@ -289,7 +289,7 @@ void compare_parts(const TriMesh& before, Parts& all, const TriMesh& after, cons
     std::vector<PartChange>& joined = change.joined_parts.emplace_back();
     for (const std::size_t i : parts) joined.push_back(names.describe(all.parts[i]));
   }
-  // A part that is near several others only appears divided if they merely touch it.
+  // A part that is near several parts of the result may only touch them. It is divided only if the result has more parts.
   if (now.parts.size() <= all.parts.size()) change.divided_parts.clear();
   std::ranges::stable_sort(change.missing_parts, [](const PartChange& a, const PartChange& b) { return a.area > b.area; });
 }

@@ -11,19 +11,19 @@
 
 namespace sterna {
 
-/// Relative margin above which a volume, sub-volume or Jacobian counts as positive in double precision, over the product of the lengths of the three vectors
-/// that span it. Rounding of the product itself is 1e-15; solvers add and average coordinates before they multiply.
+/// Relative margin above which a volume, sub-volume or Jacobian counts as positive in double precision. It is relative to the product of the lengths of the
+/// three vectors that span the value. Rounding of the product itself is 1e-15, but solvers add and average coordinates before they multiply.
 inline constexpr double k_solver_margin = 1e-13;
 
-/// Returns the smallest Jacobian of a cell over the product of its three edges, as computed in double precision: for tetrahedra the six-fold volume over the
-/// largest product of three edges at a corner, for prisms wedge_quality(), for pyramids and hexahedra the smallest value at the corners of a base or
-/// hexahedron.
+/// Returns the smallest Jacobian of a cell, as computed in double precision, over the product of the three edges. For tetrahedra this is the six-fold volume
+/// over the largest product of three edges at a corner, for prisms wedge_quality(), for pyramids the smallest value at the corners of the base, for hexahedra
+/// at all corners.
 /// \pre points of a cell of this kind in CGNS order
 double least_computed_jacobian(CellKind kind, std::span<const Vec3> points);
 
-/// Returns the smallest dual sub-volume of a cell as SU2 computes it: the tetrahedron of a node, the midpoint of an edge, the mean of a face's nodes and the
-/// mean of the cell's nodes, all rounded as coordinates. Normalised: six times the volume over the product of the lengths of the three vectors from the node.
-/// Zero if a length is zero.
+/// Returns the smallest dual sub-volume of a cell as SU2 computes it. A sub-volume is the tetrahedron of a node, the midpoint of an edge, the mean of a face's
+/// nodes and the mean of the cell's nodes, all rounded as coordinates. The value is normalised: six times the volume over the product of the lengths of the
+/// three vectors from the node. Zero if a length is zero.
 /// \pre points of a cell of this kind in CGNS order
 double least_computed_sub_volume(CellKind kind, std::span<const Vec3> points);
 

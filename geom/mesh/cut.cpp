@@ -1,6 +1,6 @@
-// The section of a cell is traced face by face. Around a face, counter-clockwise as seen from outside, the plane is crossed downwards (from above to below)
-// as often as upwards. A segment of the section runs from each downward crossing to the matching upward crossing. The two faces of an edge have its crossing
-// in opposite senses, so the segments of all faces join to closed loops, right-handed about the normal.
+// The section of a cell is traced face by face. Around a face, counter-clockwise as seen from outside, the boundary crosses the plane downwards (from above to
+// below) as often as upwards. A segment of the section runs from each downward crossing to the matching upward crossing. The two faces at an edge run through
+// its crossing in opposite senses, so the segments of all faces join to closed loops, right-handed about the normal.
 #include "geom/mesh/cut.h"
 
 #include <algorithm>
@@ -104,7 +104,7 @@ class CellCutter {
 
   MeshCut take() { return std::move(cut_); }
 
-  /// Appends the polygons of a cell; `polygon` identifies the cell.
+  /// Appends the polygons of a cell; `polygon` holds the properties of the cell.
   void add(std::span<const NodeId> nodes, CutPolygon polygon) {
     unsigned above = 0;
     for (std::size_t k = 0; k < nodes.size(); ++k) above |= static_cast<unsigned>(sides_.is_above(nodes[k])) << k;
@@ -160,14 +160,14 @@ class CellCutter {
     }
   }
 
-  /// Returns true if the two corners above the plane are connected within a bilinear face: the sign of its saddle.
+  /// Returns true if the two corners above the plane are connected within a bilinear face, which the sign of its saddle decides.
   bool joins_above(std::span<const NodeId> nodes, const LocalFace& face) const {
     const std::size_t odd = is_above(face.nodes[0]) ? 0 : 1;
     const auto height = [&](std::size_t i) { return sides_.height(nodes[face.nodes[i % 4]]); };
     return height(odd) * height(odd + 2) >= height(odd + 1) * height(odd + 3);
   }
 
-  /// Appends the corners of the loop that starts at the lowest open crossing; coincident neighbours are merged.
+  /// Appends the corners of the loop that starts at the lowest open crossing. Coincident neighbours are merged.
   void trace(std::span<const NodeId> nodes) {
     const std::size_t start = cut_.corners.size();
     for (auto at = static_cast<std::size_t>(std::countr_zero(open_)); ((open_ >> at) & 1u) != 0; at = next_[at]) {
@@ -214,7 +214,7 @@ MeshCut cut_columns(const HybridMesh& mesh, const Sides& sides, const std::optio
   const LayerBlock& layers = mesh.layers;
   std::vector<std::uint8_t> side(layers.n_lines());
   parallel_for(context, side.size(), [&](std::size_t line) { side[line] = static_cast<std::uint8_t>(sides.side_of_line(layers, line)); });
-  std::vector<KindCounts> first_cell(layers.n_columns());  // counted as if the column's cells of this kind continued down to the wall
+  std::vector<KindCounts> first_cell(layers.n_columns());  // per column, counted as if its cells of this kind continued down to the wall
   for (std::size_t c = 0; c < layers.n_columns(); ++c)
     for (const CellKind kind : {CellKind::prism, CellKind::pyramid, CellKind::tetrahedron}) {
       const auto [begin, end] = layers.layers_of_kind(c, kind);

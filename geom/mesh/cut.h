@@ -30,8 +30,9 @@ struct CutPolygon {
   bool is_in_layer = false;  ///< any cell of a column; in a mesh without columns every cell except tetrahedra
   std::int32_t layer = -1;   ///< 0 = at the wall; -1 for cells outside columns
   std::uint64_t cell = 0;    ///< number among the cells of this kind in file order, so it is the same for columns and explicit cells
-  double quality = 0.0;      ///< prisms: wedge_quality; tetrahedra: smallest dihedral angle, degrees; NaN for others
-  double shape = 0.0;        ///< 1 = ideal, at most 0 = inverted: prisms wedge_quality, tetrahedra smallest dihedral over regular one, others worst corner
+  double quality = 0.0;      ///< prisms: wedge_quality; tetrahedra: smallest dihedral angle, degrees; other cells: NaN
+  double shape = 0.0;        ///< 1 = ideal, at most 0 = inverted; prisms: wedge_quality; tetrahedra: smallest dihedral angle over that of the regular one;
+                             ///< other cells: worst corner
   double volume = 0.0;       ///< m^3
 };
 

@@ -15,7 +15,7 @@ namespace {
 constexpr double k_station = 0.55;
 /// Fraction of the half span to the neighbouring sections that give the direction of the wing's edges.
 constexpr double k_station_step = 0.02;
-/// Edges whose direction has a smaller cosine with the span are not wing edges: the sections belong to different bodies.
+/// Smallest cosine between a wing's edge and the span. If the line between edges of two sections has a smaller one, the sections belong to different bodies.
 constexpr double k_most_swept = 0.3;
 /// Largest thickness over length of a wing section; airfoils have up to 0.25, nacelles and fuselages more.
 constexpr double k_wing_thickness = 0.4;
@@ -25,9 +25,9 @@ constexpr double k_plate_thickness = 1e-3;
 constexpr double k_least_chord = 0.3;
 /// Edges that turn by more than this angle are sharp, radians.
 constexpr double k_sharp_cut = std::numbers::pi / 6.0;
-/// Distance of the cut inside the symmetry plane, over the walls' longest side: above the rounding of coordinates, far below an edge length.
+/// Distance of the cut from the symmetry plane, inwards, over the walls' longest side. It is above the rounding of coordinates and far below an edge length.
 constexpr double k_hair = 1e-7;
-/// Radius of the region of interest around a focus: this multiple of the layer height, and at least this multiple of the wall edge length.
+/// Radius of the region of interest around a focus: k_layers_seen times the layer height, and at least k_edges_seen times the wall edge length.
 constexpr double k_layers_seen = 3.0, k_edges_seen = 6.0;
 /// A body is complete if the offset of its box from the plane y = 0 is less than this fraction of its width.
 constexpr double k_whole = 0.02;
@@ -87,7 +87,7 @@ class PlaceFinder {
     double area = 0.0;
     const auto add = [&](const auto& face, const Vec3& vector) {
       if (face.patch.index() >= mesh_.patches.size() || mesh_.patches[face.patch].kind != PatchKind::symmetry) return;
-      if (area > 0.0 && dot(vector, normal) < 0.5 * norm(vector) * norm(normal)) return;  // part of a different plane than the first face
+      if (area > 0.0 && dot(vector, normal) < 0.5 * norm(vector) * norm(normal)) return;  // this face belongs to a different plane than the first one
       normal += vector;
       middle += norm(vector) * mesh_.points[face.nodes[0]];
       area += norm(vector);
@@ -125,7 +125,7 @@ class PlaceFinder {
   static double chord(const SectionPiece& piece) { return piece.box.max.x - piece.box.min.x; }
   double thickness(const SectionPiece& piece) const { return piece.box.max[3 - span_] - piece.box.min[3 - span_]; }
 
-  /// Returns its first (sense -1) or last point along x.
+  /// Returns the wing's first (sense -1) or last point along x.
   static Point end_of(const SectionPiece& wing, double sense) {
     Point best = wing.segments.front()[0];
     for (const auto& segment : wing.segments)
@@ -153,7 +153,7 @@ class PlaceFinder {
     add_close("tip", walls_.point(walls_.extreme_node(is_left ? -unit(span_) : unit(span_))), unit(0));
   }
 
-  /// Adds a plane perpendicular to the middle edge of a chain, by x.
+  /// Adds a plane perpendicular to the middle edge of a chain. The middle is found by x.
   bool add_chain(std::string name, bool is_concave, bool between_patches) {
     EdgeChain chain = walls_.longest_chain(k_sharp_cut, is_concave, between_patches);
     if (chain.edges.empty()) return false;

@@ -1,8 +1,7 @@
-// Inner nodes of the columns. Contributions are gathered per line, not scattered: each prism is evaluated from each of its three lines. This costs three
-// times the arithmetic, but needs no memory for edges or nodes, and four layers are computed at once.
-//
-// In a prism (a0 b0 c0 | a1 b1 c1), seen from a0 (u relative to a0; g the centroid, m an edge's midpoint, f a face's centroid): the edge's two faces f1, f2
-// give the dual face (f1 - f2) x (g - m) / 2, and each the sub-volume |f . (g x m)| / 6.
+// Computes the metrics of the inner nodes of columns. Contributions are gathered per line, not scattered: each prism is evaluated from each of its three lines.
+// This costs three times the arithmetic, but needs no memory for edges or nodes, and four layers are computed at once.
+// A prism (a0 b0 c0 | a1 b1 c1) is seen from a0, with vectors u relative to a0. Let g be its centroid, m the midpoint of an edge, and f the centroid of a face.
+// The edge's two faces f1, f2 give the dual face (f1 - f2) x (g - m) / 2. Each of them gives a sub-volume |f . (g x m)| / 6.
 #include <algorithm>
 #include <cmath>
 
@@ -44,10 +43,10 @@ void LineDual::reset() {
   for (std::vector<double>* values : {&most_above_, &most_below_}) std::fill(values->begin(), values->end(), -k_infinity);
 }
 
-// The triangle (own, b, c) is counter-clockwise as seen from above. Outward faces: own c b (bottom), own b b1 own1, c own own1 c1, own1 b1 c1 (top).
+// The triangle (own, b, c) is counter-clockwise as seen from above. The outward faces are: own c b (bottom), own b b1 own1, c own own1 c1, own1 b1 c1 (top).
 void LineDual::add_column(std::uint32_t column, const LineVectors& b, const LineVectors& c, Slot& to_b, Slot& to_c) {
   const auto n = static_cast<std::size_t>(mesh_.layers.layers_of_column(column));
-  const auto per_column = static_cast<std::uint64_t>(mesh_.layers.n_layers);  // numbers, not cells
+  const auto per_column = static_cast<std::uint64_t>(mesh_.layers.n_layers);  // cell numbers per column, of which some have no cell
   for (std::size_t j = 0; j < n; j += k_width) {
     const Vec3x4 a0 = own_.at(j), a1 = own_.at(j + 1);
     const Vec3x4 b0 = b.at(j) - a0, b1 = b.at(j + 1) - a1;
@@ -72,7 +71,7 @@ void LineDual::add_column(std::uint32_t column, const LineVectors& b, const Line
       return 0.5 * cross(before - after, g - m);
     };
 
-    // The upward edge belongs to both corners.
+    // The upward edge belongs to the corners at both of its ends.
     const Vec3x4 at_top_b = side_b - half_up, at_top_c = side_c - half_up;
     const Vec3x4 at_bottom_b = side_b + half_up, at_bottom_c = side_c + half_up;
     const Vec3x4 from_bottom = middle + half_up, from_top = middle - half_up;
@@ -125,7 +124,7 @@ void LineDual::finish(std::size_t n_layers) {
     const Vec3x4 up = own_.at(j + 1) - a;
     const Packed height_above = root(dot(up, up));
     add_face(upward_.at(j), up, height_above);
-    // Layer 0 has no downward edge and is not used: its lanes repeat the upper edge.
+    // Layer 0 has no downward edge and its result is not used; its lanes repeat the upward edge.
     const std::size_t k_shift = j == 0 ? 0 : 1;
     Vec3x4 below = own_.at(j - k_shift), normal_below = upward_.at(j - k_shift);
     if (j == 0) {

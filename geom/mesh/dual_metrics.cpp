@@ -1,4 +1,4 @@
-// Metrics of all nodes, by one of two algorithms: inner nodes of regular lines by LineDual, all others ("special") by NodeDual, which needs the explicit
+// Computes the metrics of all nodes. Inner nodes of regular lines are measured by LineDual, all others ("special") by NodeDual, which needs the explicit
 // cells and boundary faces around a node. The two algorithms agree to rounding; tests compare them with each other and with loops over edges.
 #include "geom/mesh/dual_metrics.h"
 

@@ -19,10 +19,12 @@ namespace sterna {
 struct NodeMetrics {
   double orthogonality = 0.0;             ///< radians: mean of pi/2 minus the angle between dual face and edge, weighted by dual face area
   double face_area_ratio = 0.0;           ///< largest over smallest dual face, including boundary faces; infinite if one has no area
-  double relative_face_area_ratio = 0.0;  ///< face_area_ratio over l_t / H: longest edge along the layer over height of the control volume along its line;
-                                          ///< nodes of lines below the line's top only. 1.5 for a regular triangulation, stacked straight
+  double relative_face_area_ratio = 0.0;  ///< face_area_ratio over l_t / H, where l_t is the longest edge along the layer and H the height of the control
+                                          ///< volume along its line; only for nodes of lines below the line's top. 1.5 for straight stacks on a regular
+                                          ///< triangulation
   double sub_volume_ratio = 0.0;          ///< largest over smallest sub-tet; infinite if one is not positive
-  double edge_ratio = 0.0;                ///< longest over shortest edge, without edges along the stack (lines, growth edges of prisms); NaN at hexahedra
+  double edge_ratio = 0.0;                ///< longest over shortest edge, without edges along the stack (growth lines, growth edges of prisms); NaN at
+                                          ///< hexahedra
   double closure = 0.0;                   ///< length of the sum of all dual face normals over the sum of their areas
   double volume = 0.0;                    ///< m^3, sum of the sub-tets
 };
@@ -41,8 +43,8 @@ struct DualScan {
   void merge(DualScan&& other);
 };
 
-/// Scans all nodes in one pass: columns along their lines, four layers at a time, all other nodes cell by cell around each node. Parallel; needs about 12
-/// bytes per node that is not inside a column and 4 per corner of an explicit cell.
+/// Scans all nodes in one pass. Nodes of columns are scanned along their lines, four layers at a time; all other nodes are scanned cell by cell around each
+/// node. Runs in parallel and needs about 12 bytes per node that is not inside a column and 4 per corner of an explicit cell.
 /// \pre as dual_metrics
 /// \param lines result of scan_lines(); not used if explicit cells or boundary faces touch nodes inside columns.
 DualScan scan_dual(const HybridMesh& mesh, const GateTable& limits, const RunContext& context, const DualScan* lines = nullptr);

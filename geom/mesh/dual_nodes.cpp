@@ -1,4 +1,5 @@
-// Nodes with cells of any kind around them: all data of a control volume are gathered from the cells and boundary faces of its node, in a fixed order.
+// Computes the metrics of nodes with cells of any kind around them. All data of a control volume are gathered from the cells and boundary faces of its node, in
+// a fixed order.
 #include <algorithm>
 #include <cmath>
 #include <limits>
@@ -31,7 +32,7 @@ std::vector<std::uint8_t> find_regular_lines(const LayerBlock& layers, const Lin
     const auto line = static_cast<std::uint32_t>(k);
     const auto columns = rings.columns(line);
     if (columns.empty()) return;
-    // Closed: each neighbour is the next line of one column and the previous line of one column.
+    // A ring is closed if each neighbour is the next line of one column and the previous line of one column.
     std::int64_t balance = 0;
     bool is_closed = true;
     for (const std::uint32_t column : columns) {
@@ -86,8 +87,8 @@ void NodeDual::add_sub_volume(double six_times) {
 }
 
 void NodeDual::add_tet(std::span<const NodeId> nodes, std::uint64_t number) {
-  // The other corners are ordered for a positive tet as seen from the corner; each sub-tet has a 24th of the volume, and the dual faces follow from three
-  // cross products.
+  // The other corners in the order that makes a positive tet as seen from the corner. Each sub-tet has a 24th of the volume, and the dual faces follow from
+  // three cross products.
   constexpr std::array<std::array<std::uint8_t, 3>, 4> k_others = {{{1, 2, 3}, {0, 3, 2}, {0, 1, 3}, {0, 2, 1}}};
   std::size_t corner = 0;
   while (nodes[corner].value() != node_) ++corner;
@@ -140,8 +141,8 @@ void NodeDual::add_cell(CellKind kind, std::span<const NodeId> nodes, std::uint6
 
 void NodeDual::add_columns(std::uint32_t line, std::uint32_t layer) {
   const LayerBlock& layers = mesh_.layers;
-  const auto per_column = static_cast<std::uint32_t>(layers.n_layers);            // numbers, not cells
-  const bool is_end = layer == static_cast<std::uint32_t>(layers.n_steps(line));  // the last node is a corner of all cells above, too
+  const auto per_column = static_cast<std::uint32_t>(layers.n_layers);            // cell numbers per column, of which some have no cell
+  const bool is_end = layer == static_cast<std::uint32_t>(layers.n_steps(line));  // the last node of a line is also a corner of all cells above
   const std::uint32_t begin = layer == 0 ? 0 : layer - 1;
   for (const std::uint32_t column : rings_.columns(line)) {
     const auto n = static_cast<std::uint32_t>(layers.layers_of_column(column));

@@ -12,13 +12,13 @@
 
 namespace sterna::dual_parts {
 
-/// Relative margin for certain sub-tets. A sub-tet is certainly above k_solver_margin (computed_volumes.h), and so positive, if six times its volume exceeds
-/// this factor times the cube of the cell's size. The size is measured from the corner (root of the sum of squared edges from there): two of the sub-tet's
-/// three vectors are at most that long, the third at most half as long. The rounding error of the formulas here, at most 64 units, is less than the
+/// Relative margin for sub-tets that are certain to be positive. A sub-tet is certainly above k_solver_margin (computed_volumes.h) if six times its volume
+/// exceeds this factor times the cube of the cell's size. The size is measured from the corner (root of the sum of squared edges from there): two of the
+/// sub-tet's three vectors are at most that long, the third at most half as long. The rounding error of the formulas here, at most 64 units, is less than the
 /// difference. Sub-tets of a prism of aspect ratio 1e9 are still certain.
 inline constexpr double k_certain = 1e-13;
-/// Absolute part of the margin: this factor times the distance of the cell from the origin and the square of the size. Solvers round midpoints and centroids
-/// as coordinates, one to eight units of the distance each.
+/// Factor of the absolute part of that margin, which is the factor times the distance of the cell from the origin times the square of the size. Solvers round
+/// midpoints and centroids as coordinates, with an error of one to eight units of the distance each.
 inline constexpr double k_place_rounding = 32 * 0x1p-53;
 /// Returns the bound of six times the volume above which a sub-tet is certain. \p reach: distance of the corner from the origin; \p size2: square of the
 /// size.
@@ -26,10 +26,10 @@ template <class T>
 T certain_sub_volume(const T& reach, const T& size, const T& size2) {
   return size2 * (k_certain * size + k_place_rounding * (reach + size));
 }
-/// Rounding error of the dual faces around a node, relative to its number of edges times the square of the longest edge: six cross products of such edges per
-/// face, with the differences before them.
+/// Rounding error of the dual faces around a node, relative to its number of edges times the square of the longest edge. Each face has six cross products of
+/// such edges, with differences before them.
 inline constexpr double k_face_rounding = 96 * 0x1p-53;
-/// Upper bound of a closure that rounding explains: around cells of length-to-width ratio 1e5, rounding alone contributes 1e-11 of the faces.
+/// Largest closure that is explained by rounding: around cells of length-to-width ratio 1e5, rounding alone contributes 1e-11 of the faces.
 inline constexpr double k_rounding_closure = 0x1p-40;
 
 /// Columns around each line.
@@ -54,7 +54,8 @@ class LineDual {
   std::vector<std::uint64_t> take_suspects() { return std::move(suspects_); }
 
  private:
-  /// Dual faces of one edge along the layer: the part from the prisms above, by layer, and the part from the prisms below, at their upper layer.
+  /// Dual faces of one edge along the layer, by layer. `above` is the part from the prisms above; `below` is the part from the prisms below, stored at their
+  /// upper layer.
   struct Slot {
     std::uint32_t line = 0;
     lanes::LineVectors above, below;
@@ -81,8 +82,8 @@ class LineDual {
 class NodeDual {
  public:
   NodeDual(const HybridMesh& mesh, const LineRings& rings);
-  /// Measures a node of a line (`line` valid) or off lines (NodeId::k_invalid). `cells`: explicit cells and boundary faces by common number, in the order of
-  /// `first_`.
+  /// Measures a node of a line (`line` valid) or off lines (NodeId::k_invalid). `cells` lists explicit cells and boundary faces by common number, in the order
+  /// of `first_`.
   NodeMetrics measure(std::uint32_t node, std::uint32_t line, std::span<const std::uint32_t> cells);
   std::vector<std::uint64_t> take_suspects() { return std::move(suspects_); }
 

@@ -1,5 +1,5 @@
-// The family rule: h0/f, n f layers, constant layers f, growth r^(1/f), growth of tetrahedra 1 + (g - 1)/f, the same farfield and patches
-// (docs/method/quality.md, "Mesh families").
+// The rule for a family refined by the factor f: first height h0/f, n f layers, f times as many constant layers, growth r^(1/f), growth of tetrahedra 1 + (g -
+// 1)/f, the same farfield and patches (docs/method/quality.md, "Mesh families").
 #include "geom/mesh/family.h"
 
 #include <algorithm>

@@ -22,14 +22,14 @@ struct FamilyMember {
   std::int64_t nodes = 0;
   std::int64_t wall_faces = 0;
   double wall_edge = 0.0;                                    ///< m: mean edge length of the wall faces; 0: no wall faces
-  Box box;                                                   ///< bounding box of all nodes, so of the farfield
+  Box box;                                                   ///< bounding box of all nodes, which is that of the farfield
   std::vector<std::pair<std::string, std::string>> patches;  ///< name and kind, by name
   std::optional<int> layers;                                 ///< layers of the tallest columns
   std::optional<double> first_height;                        ///< m: smallest requested first height
   std::optional<double> measured_first;                      ///< m: median length of the first edge of the growth lines
   std::optional<double> growth;                              ///< largest requested growth ratio
-  std::optional<double> measured_growth;                     ///< median over the growth lines of the mean ratio of consecutive steps
-  std::optional<int> constant_layers;  ///< median over the growth lines of the number of equal first steps, including the first: 1 = grows from the wall
+  std::optional<double> measured_growth;                     ///< mean ratio of consecutive steps of a growth line; median over the lines
+  std::optional<int> constant_layers;  ///< number of equal first steps of a growth line, including the first (1: it grows from the wall); median over the lines
   std::optional<double> tet_growth;    ///< requested growth of tetrahedra, from the manifest
   std::optional<double> refinement;    ///< requested refinement relative to the family, from the manifest
 };
@@ -56,9 +56,9 @@ struct FamilyRule {
   std::string name;   ///< JSON key: "first_height"
   std::string title;  ///< human-readable
   GateState state = GateState::not_checked;
-  std::string reason;                       ///< why the rule was not checked, or what differs
+  std::string reason;                       ///< reason why the rule was not checked, or description of the difference
   double coarse = 0.0, fine = 0.0;          ///< values of the two members
-  double value = 0.0, expected = 0.0;       ///< compared quantities: a ratio, a number of layers, growth - 1
+  double value = 0.0, expected = 0.0;       ///< compared quantities: two ratios, numbers of layers, or growth - 1
   double deviation = 0.0, tolerance = 0.0;  ///< pass up to the tolerance, warn up to `fail` times it
 };
 
@@ -148,7 +148,7 @@ struct Schema<FamilyTolerances> {
                .member = &O::fail,
                .min = 1.0,
                .max = 1000.0,
-               .help = "number of tolerances beyond which a rule FAILs; smaller deviations beyond the tolerance are warnings"},
+               .help = "a deviation of more than this number of tolerances is a FAIL; from one tolerance up to it a warning"},
   };
 };
 

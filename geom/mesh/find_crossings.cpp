@@ -1,5 +1,5 @@
-// Crossing pairs of a set of triangles: a tree of boxes over triangles in the order of a space-filling curve, a cheap proof that neighbours do not cross, and
-// the exact test for the remaining pairs.
+// Finds crossing pairs of a set of triangles with three tools: a tree of boxes over triangles in the order of a space-filling curve, a cheap proof that
+// neighbours do not cross, and the exact test for the remaining pairs.
 //
 // 1. Triangles are sorted along Morton's curve (their centres in 2^21 cells of each axis), eight to a leaf, leaves in a tree of eight children each,
 //    level by level: no pointers, and triangles near in space are near in memory.
@@ -28,7 +28,7 @@ namespace {
 
 using CornerIndices = std::array<std::uint32_t, 3>;
 
-/// Number of boxes in a packet, triangles in a leaf, children of a node: one vector register of floats.
+/// Number of boxes in a packet, of triangles in a leaf and of children of a node. This many floats fill one vector register.
 constexpr std::size_t k_leaf_width = 8;
 /// Leaves per task: about 1 ms.
 constexpr std::size_t k_chunk = 128;
@@ -171,7 +171,7 @@ void for_each_leaf(const TriangleLeaves& tree, const FloatBox& box, std::size_t 
   while (n > 0) {
     const Step step = stack[--n];
     std::uint32_t mask = tree.levels[step.level][step.packet].overlapping(box);
-    // Children before that of `first` contain only leaves before `first`.
+    // Children before the one that contains `first` have only leaves before `first`.
     const std::size_t least = first >> (3 * (step.level - 1));
     for (; mask != 0; mask &= mask - 1) {
       const std::size_t child = step.packet * k_leaf_width + static_cast<std::size_t>(std::countr_zero(mask));
@@ -218,11 +218,11 @@ Pair gather(std::span<const Vec3> points, const CornerIndices& a, const CornerIn
   return pair;
 }
 
-/// Returns true if an edge of `a` that contains all shared corners has the rest of `a` strictly on one side and the rest of `b` strictly on the other. Common
-/// points then project onto the shared corners, and since `a` has area in the projection they are the shared corners.
+/// Returns true if an edge of `a` that contains all shared corners separates the triangles: the rest of `a` is strictly on one side, the rest of `b` strictly
+/// on the other. Common points then project onto the shared corners; since `a` has area in the projection, they are the shared corners.
 bool edge_separates(const std::array<const Vec3*, 3>& a, const std::array<const Vec3*, 3>& b, std::size_t n_shared, std::size_t u, std::size_t v) {
   constexpr std::size_t k_edge[3][3] = {{0, 1, 2}, {0, 2, 1}, {1, 2, 0}};
-  // Candidate edges by shared corners: none (three edges), corner 0 (two edges), corners 0 and 1 (one edge).
+  // The candidates are all three edges if no corner is shared, two edges if corner 0 is shared, and one edge if corners 0 and 1 are shared.
   for (std::size_t e = 0; e < 3 - n_shared; ++e) {
     const Vec3 &from = *a[k_edge[e][0]], &to = *a[k_edge[e][1]];
     const int side = sure_turn(from, to, *a[k_edge[e][2]], u, v);

@@ -23,7 +23,7 @@ struct CrossingPairs {
 /// \throws Error(bad_argument) for an index out of range or a non-finite point of a triangle.
 CrossingPairs find_crossings(std::span<const Vec3> points, std::span<const std::array<std::uint32_t, 3>> triangles, const RunContext& context,
                              std::size_t limit = static_cast<std::size_t>(-1));
-/// As above, for a mesh.
+/// Finds the crossing pairs among the triangles of a mesh.
 CrossingPairs find_crossings(const TriMesh& mesh, const RunContext& context, std::size_t limit = static_cast<std::size_t>(-1));
 
 }  // namespace sterna

@@ -96,7 +96,7 @@ std::optional<Forcing> GivenBoundary::min_dihedral(const std::array<NodeId, 4>& 
       const Edge side = std::minmax(tet[i].value(), tet[j].value());
       const auto first = std::lower_bound(boundary_sides_.begin(), boundary_sides_.end(), std::pair(side, std::uint32_t{0}));
       if (boundary_sides_.end() - first < 2 || first->first != side || std::next(first)->first != side) continue;
-      if (boundary_sides_.end() - first > 2 && std::next(first, 2)->first == side) continue;  // baffles, disc cuts: the facing sides are unknown
+      if (boundary_sides_.end() - first > 2 && std::next(first, 2)->first == side) continue;  // baffles and disc cuts: the facing sides are unknown
       const double angle = fluid_angle(first->second, std::next(first)->second);
       if (angle > 0.0 && angle < limit)
         return Forcing{"the boundary triangles at this edge enclose only " + print_text("%.3g deg", angle * k_degrees) + " of fluid", k_open_edge};

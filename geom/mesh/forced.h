@@ -17,8 +17,8 @@ class GivenBoundary {
  public:
   explicit GivenBoundary(const HybridMesh& mesh);
 
-  /// Returns a proof for G16. A wall node has its wall edges in any mesh, so their ratio bounds the measure. In layer j both ends of an edge are at most d_j,
-  /// the length of the line up to there, away from their base vertices: edges there are at least L - d - d' and at most s + d + d' long.
+  /// Returns a proof for G16. A wall node has the same wall edges in any mesh, so the ratio of their lengths bounds the measure. In layer j the ends of an edge
+  /// are at most d and d' away from their base vertices. The longest wall edge L is then at least L - d - d' long, and the shortest, s, at most s + d + d'.
   std::optional<Forcing> edge_ratio(NodeId node, double limit) const;
   /// Returns a proof for G14. Tets at a boundary edge divide the fluid angle there: none of them has a larger angle.
   std::optional<Forcing> min_dihedral(const std::array<NodeId, 4>& tet, double limit) const;

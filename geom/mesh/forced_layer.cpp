@@ -15,26 +15,26 @@ namespace sterna::check_parts {
 namespace {
 
 constexpr int k_forced_digits = 3;  ///< digits of lengths in messages
-/// Proofs about sides hold for lines that lean by at most k_lean_room more than the best direction at their base vertices. Beyond this angle to an adjacent
-/// normal (rad) nothing is proven.
+/// rad; beyond this angle between a line and an adjacent normal nothing is proven. Proofs about sides hold for lines that lean by at most k_lean_room more than
+/// the best direction at their base vertices.
 constexpr double k_most_forced_skew = 88 * k_degree;
-/// Tilt of a side's normal against the plane perpendicular to the wall's edge (sine) beyond which nothing is proven.
+/// Nothing is proven if a side's normal is tilted by more than this (sine) against the plane perpendicular to the wall's edge.
 constexpr double k_most_tilt = 0.4;
-/// Factors for a first height within its target (G11), and for a growth ratio equal to the requested one.
+/// Tolerance factors: a first height within its target (G11) may be larger by the first factor, a growth ratio equal to the requested one by the second.
 constexpr double k_first_height_room = 1.02, k_growth_room = 1.001;
 /// Lines that lean by more than this (cosine) may have any length for a given height.
 constexpr double k_least_lean_cosine = 0.1;
 /// Sweeps of the search for a bound's multipliers. Any multipliers give a proof; more sweeps give a tighter bound.
 constexpr int k_multiplier_sweeps = 100;
-/// Rounding tolerance for the measures of this mesh against bounds that must hold for it, too.
+/// Rounding tolerance when measures of this mesh are compared with the bounds, which must hold for this mesh, too.
 constexpr double k_bound_slack = 1e-9;
 
 constexpr const char* k_remesh_there = "remesh the wall there (surface_mesh), or split its sliver triangles";
 constexpr const char* k_ask_more = "more layers, a larger growth or first height, or a finer wall there";
 constexpr const char* k_fewer_layers = "truncate the layer there, or request fewer layers";
 
-/// Returns the least share (largest_share() below: the largest) of corner `own` in the centre of a prism with these lengths at its corners, where heights are
-/// at least `stand` times the lengths.
+/// Returns the least share of corner `own` in the centre of a prism with these lengths at its corners, where heights are at least `stand` times the lengths.
+/// largest_share() returns the largest share.
 double least_share(double own, double others, double stand) { return (2.0 * stand * own + others) / (4.0 * (stand * own + others)); }
 double largest_share(double own, double others, double stand) { return (2.0 * own + stand * others) / (4.0 * (own + stand * others)); }
 
@@ -55,14 +55,14 @@ struct GivenLayer::Pair {
   double moved = 0.0;         ///< m, largest distance of a corner of the two cells from the wall
   double moved_across = 0.0;  ///< m, as `moved`, along the side's normal
   double tilt = 0.0;          ///< sine of the largest angle between the side's normal and the plane perpendicular to the wall's edge
-  double carry = 0.0;         ///< least quotient of the components of a step or a side's normal along one triangle's axes and along the other's
+  double carry = 0.0;         ///< least quotient of two components of a step or a side's normal: along the axes of one triangle over along those of the other
   double stand = 0.0;         ///< least cosine between a step and the normal of an adjacent triangle
   double stands = 0.0;        ///< least component of the side's normal along a triangle, perpendicular to the edge
 };
 
 struct GivenLayer::Room {
   double last = 0.0, total = 0.0;                    ///< m, largest length of the last cell and of the line
-  double last_as_asked = 0.0, total_as_asked = 0.0;  ///< m, as above, without the gap
+  double last_as_asked = 0.0, total_as_asked = 0.0;  ///< m, the same lengths if no gap limited the line
   Vec3 best;                                         ///< unit, the direction of lines with the best view of the facets
   /// Returns the largest fraction of a line's length along a direction while the line is within k_lean_room of the best direction.
   double most_along(const Vec3& direction) const { return std::max(0.0, std::cos(std::max(0.0, angle_between(best, direction) - k_lean_room))); }
@@ -131,7 +131,8 @@ std::optional<GivenLayer::Pair> GivenLayer::pair_of(const ColumnSide& side) cons
   }
   const double turn = angle_between(area_vector(pa, pb, pc), area_vector(pb, pa, pe)), skew = best + k_lean_room;
   if (!(skew < k_most_forced_skew)) return std::nullopt;
-  // The side's normal is perpendicular to a step, so it is within `skew` of the planes of the triangles, and lines are within `skew` of the triangle normals.
+  // The side's normal is perpendicular to a step, so its angle to the planes of the triangles is at most `skew`. So is the angle of lines to the triangle
+  // normals.
   pair.moved_across = pair.moved * std::sin(std::min(2.0 * skew, 0.5 * std::numbers::pi));
   pair.steps = step(a, side.layer) + step(b, side.layer);
   pair.halves[0] = {triangle_area(pa, pb, pc), 0.0, longest_side(pa, pb, pc), step(c, side.layer)};
@@ -164,7 +165,7 @@ std::optional<Forcing> GivenLayer::face_weight(const ColumnSide& side, double li
   if (!pair) return std::nullopt;
   for (std::size_t k = 0; k < 2; ++k) {
     const Pair::Half &near = pair->halves[k], &far = pair->halves[1 - k];
-    // Along the edge, points of a triangle are at most its longest side apart; centres of side and cell are displaced by `moved`.
+    // Along the edge, points of a triangle are at most its longest side apart; the centres of side and cell are displaced by at most `moved`.
     const double near_error = (pair->tilt * near.longest + 2.0 * pair->moved_across) / pair->stands;
     const double far_error = (pair->tilt * far.longest + 2.0 * pair->moved_across) / pair->stands;
     const double to_far = pair->carry * least_share(far.step, pair->steps, pair->stand) * far.reach - far_error;
@@ -226,14 +227,14 @@ std::optional<Forcing> GivenLayer::orthogonality(NodeId node, double limit) cons
     sum += area / 3.0;
     error += off / 3.0;
     slack = std::max(slack, off / norm(area));
-    // Dual faces beside the line: two in each cell, each within (|r| 13/6 + t 7/6) t / 2 with t the tallest step and r from an edge's midpoint to a
-    // triangle's centroid.
+    // Each cell has two dual faces beside the line. Their area is at most (|r| 13/6 + t 7/6) t / 2, with t the tallest step and r the vector from an edge's
+    // midpoint to a triangle's centroid.
     const double r = 0.5 * longest + moved;
     beside += (layer > 0 ? 2.0 : 1.0) * tallest * (r * 13.0 + tallest * 7.0) / 6.0;
   }
   const double size = norm(sum);
   if (!(size > 2.0 * error)) return std::nullopt;
-  // For any multipliers m >= 0 and any unit step s with s . n_i >= -slack: s . v <= |v + sum m_i n_i| + slack sum m_i.
+  // s . v <= |v + sum m_i n_i| + slack sum m_i holds for any multipliers m >= 0 and any unit step s with s . n_i >= -slack.
   Vec3 rest = sum / size;
   std::vector<double> multipliers(normals.size(), 0.0);
   for (int sweep = 0; sweep < k_multiplier_sweeps; ++sweep)
@@ -260,7 +261,7 @@ std::optional<GivenLayer::Room> GivenLayer::room_of(std::uint32_t line, double g
   const SphericalCap cap = smallest_spherical_cap(normals);
   const double lean = std::cos(std::min(cap.angle + k_lean_room, 0.5 * std::numbers::pi));
   if (!(lean > k_least_lean_cosine)) return std::nullopt;
-  // The request has at least as many layers as the line; in a gap the tallest last cell results from the actual number of layers.
+  // The request has at least as many layers as the line. In a gap the tallest last cell follows from the actual number of layers.
   const int n = mesh_.layers.n_steps(line), n_asked = request.line_layers.empty() ? n : request.line_layers[line];
   const double growth = k_growth_room * (request.line_max_growth.empty() ? request.max_growth : request.line_max_growth[line]);
   if (!(growth > 1.0) || n < 1) return std::nullopt;
@@ -289,7 +290,7 @@ std::optional<Forcing> GivenLayer::interface_height(std::size_t column, std::spa
     rooms[k] = *room;
   }
   double wall = 0.0, edge = 0.0, height = 0.0;
-  Room most;  // total: maximum mean difference between the edges of the wall and the shorter edges of the top
+  Room most;  // `total`: largest mean difference between the edges of the wall and the shorter edges of the layer's top
   for (std::size_t k = 0; k < 3; ++k) {
     const std::size_t j = (k + 1) % 3;
     const Vec3 along = foot(base[j]) - foot(base[k]);

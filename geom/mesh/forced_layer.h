@@ -20,7 +20,7 @@
 
 namespace sterna::check_parts {
 
-/// Assumed maximum angle between a line and the direction that sees the facets at its base best, rad; G10 takes that direction as the best.
+/// rad; lines are assumed to lean by at most this angle from the direction that sees the facets at their base best, which is the reference of G10.
 inline constexpr double k_lean_room = std::numbers::pi / 18.0;
 inline constexpr const char* k_more_normals =
     "several normals along that edge (open_ridges = \"always\"), a blunt edge in the input surface, or triangles of similar size on both sides of the edge";
@@ -51,12 +51,12 @@ class GivenLayer {
   std::optional<Forcing> volume_ratio(const ColumnSide& side, double limit) const;
   /// Returns a proof for OpenFOAM's skewness at sharp edges: searches all directions of the edge's two lines by intervals.
   std::optional<Forcing> skewness(const ColumnSide& side, double limit) const;
-  /// Returns a proof for the skewness of an edge for which the search is inconclusive. With one line on each node, in the direction that sees the facets
-  /// best, the skewness at a sharp edge follows from the two wall triangles as long as the layer is thin. A side whose `value` is equal or better is
+  /// Returns a proof for the skewness of an edge for which the search is inconclusive. Assume one line on each node, in the direction that sees the facets
+  /// best. As long as the layer is thin, the skewness at a sharp edge then follows from the two wall triangles. A side whose `value` is equal or better is
   /// forced by these triangles.
   std::optional<Forcing> skewness_of_edge(const ColumnSide& side, double limit, double value) const;
   /// Returns a proof for G9. No last cell is higher than the growth ratio of the request permits, nor higher than its share of the room in a gap.
-  /// `gaps`: height along the wall normal that a gap permits each line, m, infinite if there is no gap; may be empty.
+  /// `gaps`: height along the wall normal that a gap permits each line, m; infinite if no gap limits the line; may be empty.
   std::optional<Forcing> interface_height(std::size_t column, std::span<const double> gaps, double limit) const;
 
  private:

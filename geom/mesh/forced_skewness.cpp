@@ -1,7 +1,7 @@
-// OpenFOAM's skewness at sharp edges of the wall. A line that sees both facets lies in the narrow wedge between their extensions. The side between the two
-// columns also lies there, while the centres of their cells lie far back on the two facets. The line between the centres passes the side's centre at a
+// Proofs about OpenFOAM's skewness at sharp edges of the wall. A line that sees both facets lies in the narrow wedge between their extensions. The side between
+// the two columns also lies there, while the centres of their cells lie far back on the two facets. The line between the centres passes the side's centre at a
 // distance that hardly depends on the direction within the wedge. The search covers all directions of the edge's two lines that see both facets at least half
-// as well as the best direction does. It proceeds box by box, each with a bound by interval arithmetic.
+// as well as the best direction does. It proceeds by boxes of directions, and bounds the skewness in each box by interval arithmetic.
 #include <algorithm>
 #include <cmath>
 #include <numbers>
@@ -19,17 +19,17 @@ namespace {
 constexpr int k_wedge_boxes = 16;
 /// Fraction of the distance between the centres that counts as a side's extent (OpenFOAM).
 constexpr double k_centre_reach = 0.2;
-/// Half of the widest wedge that is searched, rad: beyond it no skewness is forced.
+/// rad; half of the widest wedge that is searched. In a wider wedge no skewness is forced.
 constexpr double k_widest_half_wedge = 15 * k_degree;
 /// Part of the wedge, around its middle, that is assumed to contain the lines: they see both facets at least half as well as the best direction does.
 constexpr double k_used_wedge = 0.5;
-/// Bound on the rise of one end of a triangle over the other, relative to their distance; the maximum that it adds to the angle of a step that leans by 10
-/// degrees along the edge.
+/// Largest assumed rise of one end of a triangle over the other, relative to their distance. It is the largest amount by which a step that leans by 10 degrees
+/// along the edge can increase its angle.
 constexpr double k_twist = 0.1;
 
-/// Edges at which the wall turns back within less than this angle, rad, are sharp: they need several normals.
+/// Edges at which the wall turns back to within this angle, rad, are sharp: they need several normals.
 constexpr double k_sharp = 80 * k_degree;
-/// Factor to which the bare wall's edge predicts the skewness of a thin layer.
+/// The skewness of a thin layer may exceed that of the bare wall's edge by this factor.
 constexpr double k_like = 1.05;
 
 struct Interval {
@@ -82,7 +82,8 @@ double GivenLayer::Wedge::least_skewness(int box_a, int box_b) const {
   };
   const std::array<Interval, 2> psi = {direction(box_a), direction(box_b)};
   const Interval middle = {std::min(psi[0].low, psi[1].low), std::max(psi[0].high, psi[1].high)};
-  std::array<Interval, 2> t, y, off;  // cell centres: position along the edge, distance from it in the triangle's plane, distance from the side's plane
+  std::array<Interval, 2> t, y, off;  // position of a cell centre along the edge, its distance from the edge in the triangle's plane, and its distance from the
+                                      // side's plane
   for (std::size_t i = 0; i < 2; ++i) {
     const double sign = i == 0 ? 1.0 : -1.0;
     const auto to_facet = [&](const Interval& p) { return sign > 0.0 ? Interval{half - p.high, half - p.low} : Interval{half + p.low, half + p.high}; };
@@ -108,7 +109,7 @@ double GivenLayer::Wedge::least_skewness(int box_a, int box_b) const {
           apart = std::max(apart, std::sqrt((t1 - t0) * (t1 - t0) + y0 * y0 + y1 * y1 - 2.0 * y0 * y1 * std::cos(2.0 * half)));
     }
   apart += 2.0 * moved;
-  // The side's centre along the edge, and the distance of its corners from there.
+  // Position of the side's centre along the edge, and the distance of its corners from there.
   const auto centre_at = [&](double first, double second) { return edge * (first + 2.0 * second) / (3.0 * (first + second)); };
   const Interval centre = {centre_at(across[0].high, across[1].low), centre_at(across[0].low, across[1].high)};
   const double reach_along = std::max(centre.high, edge - centre.low) + 2.0 * moved_along;
@@ -117,8 +118,8 @@ double GivenLayer::Wedge::least_skewness(int box_a, int box_b) const {
   const double least_beside = beside.low > 0.0 ? beside.low : beside.high < 0.0 ? -beside.high : 0.0;
   const double back = std::min(y[0].low, y[1].low) * std::cos(half + visible) - 2.0 * moved;
   if (!(back > 0.0)) return 0.0;
-  // For a miss (e, x) along and perpendicular to the edge, the side's extent is at most (e reach_along + x thick) / |miss|. The skewness is least at e =
-  // `worst`, and grows with x if the side is thin.
+  // Let a miss be the vector (e, x) from the line to the side's centre, e along the edge and x perpendicular to it. The side's extent is at most (e reach_along
+  // + x thick) / |miss|. The skewness is least at e = `worst`, and grows with x if the side is thin.
   const double thick = 2.0 * moved;
   if (thick * most_beside > 2.0 * back * reach_along) return 0.0;
   const double worst = std::clamp(back * (std::hypot(thick, reach_along) - thick) / reach_along, least_beside, most_beside);

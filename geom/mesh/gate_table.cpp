@@ -21,7 +21,7 @@ constexpr LimitEvidence k_proposal{Evidence::cited, Evidence::cited,
                                    "a proposal of this project; runs converge beyond this limit (docs/measurements/gates.md)"};
 constexpr LimitEvidence k_flat_by_runs{Evidence::measured, Evidence::cited,
                                        "docs/measurements/gates.md: runs with more than 0.1 % beyond the limit diverged or changed drag"};
-constexpr double k_flat_share = 0.001;  // four flat tetrahedra in 50 000 moved drag by 0.5 %, 0.1 % and more spoilt every run
+constexpr double k_flat_share = 0.001;  // four flat tetrahedra in 50 000 changed drag by 0.5 %; with 0.1 % and more every run diverged or changed drag
 constexpr LimitEvidence k_by_model{Evidence::definition, Evidence::definition, "the model from which the mesh was made"};
 
 constexpr std::array<MeasureInfo, k_n_measures> k_measures = {{
@@ -298,7 +298,7 @@ constexpr std::array<MeasureInfo, k_n_measures> k_measures = {{
      {0, 1, 50},
      k_cell_centred_alone,
      {Evidence::cited, Evidence::none, "OpenFOAM's checkMesh: 1e-30"}},
-    // Solver runs diverge from such faces near the wall (docs/heights.md), but the hard limit applies to the measure over all faces.
+    // Solver runs diverge if such faces are near the wall (docs/heights.md), but the hard limit applies to the measure over all faces.
     {M::stacked_orthogonality,
      "OF",
      "stacked_orthogonality",

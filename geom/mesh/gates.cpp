@@ -149,11 +149,11 @@ GateResult GateScan::judge(std::int64_t n_forced, double forced_weight, double o
   result.worst = value_of(worst_.front());
   result.share_within = total_ > 0.0 ? within_ / total_ : 0.0;
   result.share_beyond_hard = total_ > 0.0 ? own_weight / total_ : 0.0;
-  // What is forced counts as if it kept its limits.
+  // Items that are forced count as if they kept their limits.
   const bool is_usual_missed = !is_none(limits_.usual) && within_ + forced_weight < limits_.usual_share * total_;
   result.is_hard_missed = n_forced < result.n_beyond_hard;
   result.is_soft_missed = worst_within_ > target_ || is_usual_missed;
-  result.state = GateState::pass;  // measured
+  result.state = GateState::pass;  // the gate was measured
   for (const Consumer consumer : k_consumers)
     if (const GateState state = state_for(result, consumer); state != GateState::not_checked) result.state = std::max(result.state, state);
   return result;

@@ -22,10 +22,10 @@ enum class Measure : std::uint8_t {
   sub_volume_ratio,          ///< G6: SU2's definition, per node
   face_area_ratio,           ///< G7: SU2's CV face area aspect ratio, per node
   relative_face_area_ratio,  ///< G7: face_area_ratio over l_t / H, longest edge along the layer over height of the dual cell
-  stack_growth,              ///< G8: heights of consecutive cells of a growth line, the larger over the smaller
-  interface_height,          ///< G9: last layer height over 0.816 mean envelope edge, or its inverse
-  interface_volume,          ///< G9: thrice the tet's over the prism's volume, or its inverse
-  stack_angle,               ///< G10: steepest of the first cells against the wall facets, minus the best possible angle
+  stack_growth,              ///< G8: ratio of the heights of consecutive cells of a growth line (larger over smaller)
+  interface_height,          ///< G9: ratio of the last layer height to 0.816 times the mean envelope edge, or its inverse
+  interface_volume,          ///< G9: ratio of three times the tet's volume to the prism's volume, or its inverse
+  stack_angle,               ///< G10: angle of the steepest of the first cells against the wall facets, minus the best possible angle
   first_height,              ///< G11: relative deviation of the first height along the vertex normal
   boundary_layer,            ///< G12: area share that covers the requested boundary-layer thickness, or the part of it that the geometry permits
   coverage,                  ///< G12: share of the wall area with the height along the normal that the geometry permits
@@ -33,7 +33,7 @@ enum class Measure : std::uint8_t {
   layer_step,                ///< G13: difference of the number of layers across an edge
   min_dihedral,              ///< G14
   max_dihedral,              ///< G14
-  tet_growth,                ///< G15: volumes of two tets with a common face, the larger over the smaller
+  tet_growth,                ///< G15: ratio of the volumes of two tets with a common face (larger over smaller)
   edge_ratio,                ///< G16: longest over shortest edge of a node, without edges along its stack
   non_orthogonality,         ///< OpenFOAM's, per inner face: angle between its normal and the line through the centres of its cells
   skewness,                  ///< OpenFOAM's, per face: distance from that line to the face centre, over the face's extent (or 0.2 of the line)
@@ -45,7 +45,7 @@ enum class Measure : std::uint8_t {
   face_tets,                 ///< OpenFOAM's, per face: quality of the worst tet into which it and its cells are cut
   stacked_orthogonality,     ///< non_orthogonality between two prisms of one column, caused by different height proportions at their corners
   stacked_skewness,          ///< skewness of the same faces
-  cell_determinant,          ///< OpenFOAM's, per cell: determinant of the tensor of its inner faces, 1 for a cube; reported only
+  cell_determinant,          ///< OpenFOAM's measure of a cell: determinant of the tensor of its inner faces, which is 1 for a cube; only reported
   cad_distance,              ///< G17: distance of a wall node from the model, over the body length (surfmesh/model/deviation.h)
   cad_normal,                ///< G18: facet normal against the model normal at the facet's centroid (same source)
 };
@@ -73,9 +73,9 @@ inline constexpr Consumers k_cell_centred_alone{.cell_centred = true, .node_cent
 /// Justification of a hard limit.
 enum class Evidence : std::uint8_t {
   none,        ///< there is no hard limit, or the consumer does not use the measure
-  definition,  ///< beyond it the mesh cannot be used, or is not what was asked for
-  measured,    ///< runs of a solver; the source names the page
-  cited,       ///< a program's or guideline's limit for which no run here is evidence: beyond it the gate warns
+  definition,  ///< the mesh cannot be used beyond the limit, or it is not the requested mesh
+  measured,    ///< the limit is from runs of a solver; the source names the page
+  cited,       ///< the limit is from a program or guideline, without evidence from own runs: beyond it the gate warns
 };
 /// Returns "definition", ...; "" for none.
 std::string_view to_string(Evidence evidence);
@@ -115,9 +115,9 @@ struct MeasureInfo {
   bool is_low_bad;           ///< limits are lower bounds
   GateLimits limits;         ///< defaults
   HistogramClasses classes;  ///< in SI and radians
-  Consumers consumers;       ///< whose solutions depend on it
+  Consumers consumers;       ///< solver classes whose solutions depend on the measure
   LimitEvidence evidence;    ///< evidence for the hard limit
-  double fail_share = 0.0;   ///< share of what is counted that must be beyond the hard limit before the gate FAILs; 0: one item is enough
+  double fail_share = 0.0;   ///< the gate FAILs if more than this share of the items (or of the area) is beyond the hard limit; 0: one item is enough
 };
 
 /// The table of docs/quality_gates.md, in the order of Measure.
@@ -178,28 +178,29 @@ struct GateResult {
   bool is_soft_missed = false;               ///< the target or the usual limit is missed
   std::string reason;                        ///< why the gate was not checked
   double worst = 0.0;
-  double total = 0.0;                ///< number of items, or m^2 where areas are counted
-  double share_beyond_hard = 0.0;    ///< share of it beyond the hard limit, without what is forced
-  double share_within = 0.0;         ///< share of it within limits.usual; within limits.target where there is no usual limit
-  std::int64_t n_beyond_hard = 0;    ///< items
-  std::int64_t n_forced = 0;         ///< part of them, proven to be forced by the given boundary: they do not FAIL
-  std::int64_t n_beyond_target = 0;  ///< items beyond limits.target, or limits.usual where there is no target; those beyond the hard limit are among them
-  // Of the items that decide: those beyond the hard limit that are not forced, or where there are none those beyond the target.
-  std::int64_t n_too_small = 0, n_too_large = 0;  ///< values on either side of what they should be
-  std::optional<std::int64_t> n_places;           ///< clusters of items whose cells touch; none where items have no place, or are too many to be kept
-  double share_beyond = 0.0;                      ///< share of the wall's area where areas are counted, else of the fluid's volume
-  GateExtent extent;                              ///< their values; empty after check()
-  std::vector<GatePlace> places;                  ///< the worst ten that miss a limit and are not forced (any, for a measure without limits), worst first
-  std::vector<GatePlace> forced;                  ///< the worst ten that are forced, worst first
-  std::vector<double> histogram;                  ///< items, or m^2, of each class of MeasureInfo::classes; empty where the measure has none
+  double total = 0.0;                ///< number of items; m^2 if areas are counted
+  double share_beyond_hard = 0.0;    ///< share of `total` beyond the hard limit, without forced items
+  double share_within = 0.0;         ///< share of `total` within limits.usual, or within limits.target if there is no usual limit
+  std::int64_t n_beyond_hard = 0;    ///< number of items beyond the hard limit
+  std::int64_t n_forced = 0;         ///< number of these items that are proven to be forced by the given boundary: they do not FAIL
+  std::int64_t n_beyond_target = 0;  ///< number of items beyond limits.target (limits.usual if there is no target), including those beyond the hard limit
+  // The following members describe the items that decide: those beyond the hard limit that are not forced, or if there are none, those beyond the target.
+  std::int64_t n_too_small = 0, n_too_large = 0;  ///< deciding items with a value below or above the ideal
+  std::optional<std::int64_t> n_places;           ///< clusters of deciding items whose cells touch; none if items have no location, or are too many to be kept
+  double share_beyond = 0.0;                      ///< share of the deciding items: of the wall's area if areas are counted, else of the fluid's volume
+  GateExtent extent;                              ///< nodes and cells of the deciding items; empty after check()
+  std::vector<GatePlace> places;                  ///< the worst ten items that miss a limit and are not forced (any items for a measure without limits), worst
+                                                  ///< first
+  std::vector<GatePlace> forced;                  ///< the worst ten forced items, worst first
+  std::vector<double> histogram;                  ///< number of items, or m^2, in each class of MeasureInfo::classes; empty if the measure has no histogram
 };
 
-/// What a result says to one kind of solver. Beyond a hard limit: FAIL where the limit is by definition or measured and more than MeasureInfo::fail_share is
-/// beyond it, or where the limit is the user's own; else warn. not_checked where the consumer does not use the measure.
+/// Returns the state of a result for one solver class. A gate beyond its hard limit FAILs if the limit is by definition or measured and more than
+/// MeasureInfo::fail_share is beyond it, or if the limit is the user's own; otherwise it warns. Returns not_checked if the consumer does not use the measure.
 GateState state_for(const GateResult& gate, Consumer consumer);
 
-/// Running statistics of one measure: weight within the usual limit, and the worst items. The result of merging does not depend on how items were distributed
-/// to the parts, except for the rounding of non-integer weights.
+/// Running statistics of one measure, which collect the weight within the usual limit and the worst items. The result of merging does not depend on how items
+/// were distributed to the parts, except for the rounding of non-integer weights.
 class GateScan {
  public:
   static constexpr std::size_t k_most_places = 10;
@@ -299,8 +300,8 @@ class GateScan {
   double entry_ = -std::numeric_limits<double>::infinity();
   double total_ = 0.0, within_ = 0.0;
   double worst_within_ = -std::numeric_limits<double>::infinity();  ///< badness of items within the hard limit
-  std::vector<Beyond> beyond_;                                      ///< all items beyond the hard limit
-  // Items beyond the soft limit: all, and those within the hard limit.
+  std::vector<Beyond> beyond_;                                      ///< items beyond the hard limit; all of them are kept
+  // Numbers of items beyond the soft limit: all of them, those within the hard limit, and those too small.
   std::int64_t n_soft_ = 0, n_soft_within_ = 0, n_soft_small_ = 0;
   double soft_weight_ = 0.0;
   bool has_dropped_soft_ = false;

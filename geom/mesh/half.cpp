@@ -101,7 +101,7 @@ double fold_cosine(const TriMesh& mesh, const Topology& topology, HalfedgeId h) 
 struct Move {
   VertexId vertex;
   Point to;
-  double share = 0.0;  ///< distance over the shortest edge
+  double share = 0.0;  ///< distance of the move over the shortest edge
   double fold = 1.0;   ///< fold cosine of the edge along which it moves
 };
 
@@ -166,7 +166,7 @@ SnapReport snap_near_vertices(Cutting& cutting, const Topology& topology, const 
   return report;
 }
 
-/// Crossed edges, lower vertex first, in ascending order; each edge becomes a new vertex.
+/// Crossed edges in ascending order, each with its lower vertex first. Each edge becomes a new vertex.
 using EdgeList = std::vector<std::array<VertexId, 2>>;
 
 EdgeList crossed_edges(const Cutting& cutting) {
@@ -181,7 +181,8 @@ EdgeList crossed_edges(const Cutting& cutting) {
   return edges;
 }
 
-/// The kept part of each triangle: the triangle itself, a smaller triangle, or two triangles. Vertex numbers beyond those of the mesh are crossed edges.
+/// Collects the part of each triangle that is kept: the triangle itself, a smaller triangle, or two triangles. Vertex numbers beyond those of the mesh stand
+/// for crossed edges.
 class Cutter {
  public:
   Cutter(const Cutting& cutting, const HalvingPlane& plane) : cutting_(cutting), edges_(crossed_edges(cutting)), points_(cutting.mesh.points) {
@@ -224,7 +225,7 @@ class Cutter {
     const auto d = distances(cutting_, t);
     if (!is_kept_in_part(d)) return;
     const TriangleVertices& v = cutting_.mesh.triangles[t];
-    // The polygon above the plane, in the triangle's sense; three or four corners.
+    // The polygon above the plane has three or four corners, in the order of the triangle.
     std::array<VertexId, 4> corner;
     std::size_t n = 0;
     for (std::size_t k = 0; k < 3; ++k) {
@@ -234,8 +235,8 @@ class Cutter {
     }
     n_cut_ += d[0] < 0.0 || d[1] < 0.0 || d[2] < 0.0 ? 1 : 0;
     if (n == 3) return add(t, corner[0], corner[1], corner[2]);
-    // Four corners: split by the shorter diagonal. Of equal diagonals, the one at the smaller vertex is used, so the result does not depend on the triangle's
-    // first corner.
+    // A polygon of four corners is split by the shorter diagonal. If both are equal, the diagonal at the smaller vertex is used, so that the result does not
+    // depend on the triangle's first corner.
     const double first = distance2(corner[0], corner[2]), second = distance2(corner[1], corner[3]);
     const bool is_first = first < second || (first == second && std::min(corner[0], corner[2]) < std::min(corner[1], corner[3]));
     add(t, corner[0], corner[1], corner[is_first ? 2 : 3]);

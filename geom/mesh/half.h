@@ -1,4 +1,5 @@
-// The half of a triangulated surface on one side of a plane x, y or z = constant. Its boundary edges form closed loops that lie exactly in the plane.
+// Cuts a triangulated surface at a plane x, y or z = constant and keeps one half. The boundary edges of the half form closed loops that lie exactly in the
+// plane.
 #pragma once
 
 #include <string>

@@ -41,7 +41,7 @@ Cell LayerBlock::cell(std::size_t column, int layer) const {
     }
     return result;
   }
-  // Rotate so that a is the ended line of a pyramid, or the continuing line of a tet; the cyclic sense (a, b, c) is kept.
+  // Rotate the corners so that a is the ended line of a pyramid, or the continuing line of a tet; the cyclic sense (a, b, c) is kept.
   const bool is_pyramid = result.kind == CellKind::pyramid;
   std::size_t first = 0;
   while ((n_steps(lines[first]) <= layer) != is_pyramid) ++first;
@@ -49,7 +49,7 @@ Cell LayerBlock::cell(std::size_t column, int layer) const {
   const std::uint32_t b = lines[(first + 1) % 3];
   const std::uint32_t c = lines[(first + 2) % 3];
   if (is_pyramid) {
-    // Base quad (b0, b1, c1, c0): its normal points towards a, because (a, b, c) is counter-clockwise as seen from above.
+    // The base is the quad (b0, b1, c1, c0). Its normal points towards a, because (a, b, c) is counter-clockwise as seen from above.
     result.nodes = {node(b, layer), node(b, layer + 1), node(c, layer + 1), node(c, layer), top(a)};
     return result;
   }

@@ -1,5 +1,6 @@
 // The volume mesh: prismatic layers stored as columns, explicit cells for the rest, boundary faces with patches.
-// Element order is CGNS SIDS: PENTA_6 base triangle's right-hand normal points towards the other triangle; face tables in cell_faces().
+// Elements are ordered as in CGNS SIDS: the right-hand normal of the base triangle of a PENTA_6 points towards the other triangle. The face tables are in
+// cell_faces().
 #pragma once
 
 #include <algorithm>
@@ -103,8 +104,8 @@ struct LayerBlock {
   /// Returns cell `layer` (0 = at the wall) of a column.
   /// \pre layer < layers_of_column(column)
   Cell cell(std::size_t column, int layer) const;
-  /// Side of a column in one layer, between the lines of corners `corner` and the next, normal out of the column: four nodes, three if one of the lines has
-  /// ended, none if both have ended.
+  /// A side of a column in one layer, between the lines of corner `corner` and of the next corner, normal out of the column. It has four nodes, three if one of
+  /// the lines has ended, none if both have ended.
   struct Side {
     std::array<NodeId, 4> nodes{};
     std::uint8_t size = 0;
@@ -112,12 +113,12 @@ struct LayerBlock {
   Side side(std::size_t column, std::size_t corner, int layer) const;
 };
 
-/// Layer request: reference for the measured first height, growth and coverage. Unknown for a mesh that was read from a file.
+/// The requested layer, with which the measured first height, growth and coverage are compared. It is unknown for a mesh that was read from a file.
 struct LayerRequest {
-  double first_height = 0.0;                ///< m; 0 = unknown; the smallest if lines differ
-  double max_growth = 0.0;                  ///< largest ratio of heights of consecutive cells; the largest if lines differ
+  double first_height = 0.0;                ///< m; 0 = unknown; the smallest of all lines if they differ
+  double max_growth = 0.0;                  ///< largest ratio of heights of consecutive cells; the largest of all lines if they differ
   std::vector<double> line_first_height;    ///< m, along the vertex normal, per line; empty: first_height everywhere
-  std::vector<double> line_first_room;      ///< m, smallest line height at which its first height is met to 2 %, per line; empty: layers x first height
+  std::vector<double> line_first_room;      ///< m, smallest line height at which the line's first height is met to 2 %, per line; empty: layers x first height
   std::vector<double> line_boundary_layer;  ///< m, boundary-layer thickness that the line must cover; 0: not requested; empty: not requested for any line
   std::vector<double> line_max_growth;      ///< per line; empty: max_growth everywhere
   std::vector<std::uint16_t> line_layers;   ///< per line; empty: as many as the line has, so that no line was truncated

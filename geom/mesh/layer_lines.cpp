@@ -60,7 +60,7 @@ void LayerLines::use_columns(const HybridMesh& mesh, const FaceSlots& slots, con
   patches_.assign(triangles_.size(), PatchId{});
   for (std::size_t i = 0; i < match.outer.size(); ++i)
     if (const auto column = slots.column_under(match.outer[i])) patches_[*column] = slots.patch(match.outer_boundary[i]);
-  // Columns without cells: their wall triangle is a face of a tet.
+  // Columns without cells have no line: their wall triangle is a face of a tet.
   std::map<std::array<std::uint32_t, 3>, std::size_t> bare;
   for (std::size_t c = 0; c < triangles_.size(); ++c)
     if (mesh.layers.layers_of_column(c) == 0)

@@ -38,7 +38,7 @@ LayerRoom::LayerRoom(std::vector<FacingTriangle> boundary, const RunContext& con
 }
 
 std::optional<LayerRoom::Hit> LayerRoom::nearest_opposite(const RoomRequest& line) const {
-  // Beyond both heights and the reserved part of a gap (at most half of it) there is room for any requested height.
+  // A wall farther away than both heights and the reserved part of a gap (at most half of it) leaves room for any requested height.
   const double reach = (line.target + most_asked_ / k_opposing_cosine) / k_kept_share;
   Box box;
   box.add(line.foot);

@@ -1,4 +1,4 @@
-// Height that the geometry itself permits a growth line of a layer: limited by opposing walls, and by the directions that see all facets of a corner.
+// The height that the geometry itself permits a growth line of a layer. It is limited by opposing walls, and by the directions that see all facets of a corner.
 #pragma once
 
 #include <array>
@@ -14,7 +14,7 @@ namespace sterna {
 /// Fraction of the target height that counts as reached (docs/method/envelope.md, "Heights").
 inline constexpr double k_full_height_share = 0.9;
 /// Room for tets between two layers, as a fraction of the longer local envelope edge; tets there have angles of some 15 degrees. At most k_kept_share of the
-/// gap is reserved, the rest is for the layers. This is the room that the envelope reserves (docs/method/envelope.md, "Room for tetrahedra").
+/// gap is reserved; the layers get the rest. This is the room that the envelope reserves (docs/method/envelope.md, "Room for tetrahedra").
 inline constexpr double k_kept_edges = 0.3;
 inline constexpr double k_kept_share = 0.5;
 
@@ -22,8 +22,8 @@ inline constexpr double k_kept_share = 0.5;
 struct FacingTriangle {
   std::array<Point, 3> corners;         ///< right-hand normal into the fluid
   std::array<std::uint32_t, 3> feet{};  ///< lines on its corners, or k_no_foot
-  double asked = 0.0;                   ///< m, largest requested height at its corners; 0: the triangle carries no layer, and its orientation is ignored
-  double edge = 0.0;                    ///< m, mean edge of the envelope above it
+  double asked = 0.0;  ///< m, largest requested height at the corners of the triangle; 0 if it carries no layer, and then its orientation is ignored
+  double edge = 0.0;   ///< m, mean edge of the envelope above it
   static constexpr std::uint32_t k_no_foot = 0xffffffffu;
 };
 
@@ -43,11 +43,11 @@ class LayerRoom {
   LayerRoom(std::vector<FacingTriangle> boundary, const RunContext& context);
 
   /// Returns the height along the wall normal that the geometry permits, m; at most the target.
-  /// Gap: the normal meets a wall that faces it within 45 degrees at distance g. If both layers do not fit into g minus the room reserved by the envelope,
+  /// In a gap, the normal meets a wall that faces it within 45 degrees at distance g. If both layers do not fit into g minus the room reserved by the envelope,
   /// the remaining height is divided in proportion to their targets: equal layers get half each.
-  /// Corner: a line as long as the target reaches target * visibility on the worst facet, whatever its direction; this counts as full height there.
+  /// At a corner, a line as long as the target reaches only target * visibility on the worst facet, whatever its direction; this counts as full height there.
   double permitted(const RoomRequest& line) const { return permitted(line, in_gap(line)); }
-  /// As above, for a line with a known result of in_gap().
+  /// The same for a line with a known result of in_gap().
   static double permitted(const RoomRequest& line, double in_gap);
   /// Returns the height along the wall normal that an opposing wall permits the line, m; infinite if no wall limits it.
   double in_gap(const RoomRequest& line) const;

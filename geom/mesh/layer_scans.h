@@ -34,7 +34,8 @@ class ScanChunks {
       }
     });
   }
-  /// Returns all = combine(all, part), from the first chunk to the last: the same result as parallel_reduce for the same chunks.
+  /// Combines the results with all = combine(all, part), from the first chunk to the last, and returns `all`. This is the result of parallel_reduce for the
+  /// same chunks.
   /// \pre fill() was called
   template <class Combine>
   Scan joined(Scan all, const Combine& combine) const {

@@ -39,7 +39,7 @@ class MirrorFeet {
   std::vector<Foot> feet_;  ///< ascending by node and patch
 };
 
-/// Facets around the base vertices of column lines that carry explicit prisms and no column: facets of wake sheets, and of walls beside lines that were
+/// Facets around base vertices of column lines that belong to explicit prisms, not to columns: facets of wake sheets, and of walls beside lines that were
 /// added. A line must also see these facets. Empty if the lines are not columns.
 class FacetsOfExplicitPrisms {
  public:
@@ -55,7 +55,7 @@ class FacetsOfExplicitPrisms {
   std::vector<Facet> facets_;  ///< ascending by line
 };
 
-/// Returns the worst ratio of consecutive heights, the larger over the smaller (G8); 1 for fewer than two.
+/// Returns the worst ratio of consecutive heights, larger over smaller (G8); 1 for fewer than two heights.
 double worst_growth(std::span<const double> heights);
 /// Returns the angle of the steepest of the first cells against the facets around the base vertex, minus the best possible angle, radians (G10); `normals`:
 /// unit normals of the facets.

@@ -14,8 +14,9 @@ struct MirrorGap {
   Point at{};             ///< the vertex
 };
 
-/// Returns the vertex whose image in the plane `coordinate axis = at` is farthest from the surface, if the distance exceeds `share` times the longest edge at
-/// it: triangles of both sides need not be images of each other, chords of curves are not. Zero if there is none; ties by the first vertex.
+/// Mirrors each vertex at the plane `coordinate axis = at` and measures the distance of its image from the surface. Returns the vertex with the largest
+/// distance if that exceeds `share` times the longest edge at the vertex. A smaller distance is no gap: triangles of the two sides may differ, and so do the
+/// chords of a curved surface. Returns zero if there is no gap; ties by the first vertex.
 MirrorGap mirror_gap(const TriMesh& surface, std::size_t axis, double at, double share, const RunContext& context);
 
 /// Returns the warning about a half model whose other side is not its mirror image. \p plane: "y = 0 m"

@@ -12,7 +12,7 @@ class NodeSubset {
  public:
   explicit NodeSubset(std::size_t n_nodes) : bits_((n_nodes + 63) / 64, 0) {}
 
-  /// May be called from several threads.
+  /// Adds a node. May be called from several threads.
   void insert(std::size_t node) {
     const std::atomic_ref<std::uint64_t> word(bits_[node / 64]);
     const std::uint64_t bit = std::uint64_t{1} << (node % 64);

@@ -1,4 +1,4 @@
-// Orders of graphs, and measures of their quality.
+// Computes orders of graphs, and measures their quality.
 #include "geom/mesh/numbering.h"
 
 #include <algorithm>

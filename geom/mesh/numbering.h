@@ -12,8 +12,8 @@ namespace sterna {
 
 enum class Numbering {
   lines,      ///< as generated: wall-normal growth lines (columns of cells) first, then the rest
-  bandwidth,  ///< neighbours get close numbers, whatever they belong to
-  both,       ///< lines and columns consecutive, from the wall up, as units in one bandwidth order with the rest
+  bandwidth,  ///< neighbours get close numbers, whether or not they belong to one line
+  both,       ///< lines and columns keep consecutive numbers, from the wall up; as units they are in one bandwidth order with the other nodes
 };
 /// \throws Error(bad_argument) for another name
 Numbering numbering_of(std::string_view name);
@@ -34,7 +34,8 @@ std::vector<std::uint32_t> bandwidth_order(const NeighbourGraph& graph);
 /// Distances between the numbers of neighbours.
 struct NumberingMeasure {
   std::uint64_t bandwidth = 0;  ///< largest difference between the numbers of neighbours
-  double mean_profile = 0.0;    ///< mean over all numbers of the distance down to the lowest neighbour: the span of a matrix row or of cache accesses
+  double mean_profile = 0.0;    ///< mean over all vertices of the difference between a vertex's number and its lowest neighbour's: the width of a matrix row,
+                                ///< or of memory accesses
 };
 /// Measures a numbering. \param new_number of each vertex; empty: current numbers
 NumberingMeasure measure_numbering(const NeighbourGraph& graph, const std::vector<std::uint32_t>& new_number = {});
@@ -43,9 +44,9 @@ NumberingMeasure measure_numbering(const NeighbourGraph& graph, const std::vecto
 NeighbourGraph node_graph(const HybridMesh& mesh, const RunContext& context);
 
 /// Returns the same mesh with other numbers.
-/// `both`: growth lines as units and the other nodes by bandwidth_order(); columns, cells and boundary faces by their lowest node. In a mesh without columns,
-/// read from a file, the lines are those of the stacks of prisms on its walls, and prisms of a stack are consecutive.
-/// `bandwidth`: all nodes by bandwidth_order(); the result has no columns. `lines`: unchanged.
+/// `both`: growth lines as units and the other nodes are in the order of bandwidth_order(); columns, cells and boundary faces are sorted by their lowest node.
+/// In a mesh without columns, read from a file, the lines are those of the stacks of prisms on its walls, and prisms of a stack are consecutive.
+/// `bandwidth`: all nodes are in the order of bandwidth_order(); the result has no columns. `lines`: the mesh is unchanged.
 HybridMesh renumbered(const HybridMesh& mesh, Numbering numbering, const RunContext& context);
 
 }  // namespace sterna

@@ -1,4 +1,4 @@
-// Boundary faces of a mesh that no patch lists: for files without a boundary, or with only a part of it.
+// Finds boundary faces of a mesh that no patch lists, for files without a boundary, or with only a part of it.
 #pragma once
 
 #include <cstdint>
@@ -9,7 +9,7 @@
 
 namespace sterna {
 
-/// Faces of exactly one cell that no boundary face covers, outward; their `patch` is invalid.
+/// Faces of exactly one cell that no boundary face covers, with their normals outwards; their `patch` is invalid.
 struct OpenFaces {
   std::vector<BoundaryTriangle> triangles;
   std::vector<BoundaryQuad> quads;

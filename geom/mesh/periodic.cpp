@@ -1,4 +1,4 @@
-// Finds partners along the axis in which a side is widest, within a window of the tolerance; matches faces by the partners of their nodes.
+// Partners of nodes are searched along the axis in which a side is widest, within a window of the tolerance. Faces are matched by the partners of their nodes.
 #include <algorithm>
 #include <limits>
 #include <map>
@@ -53,7 +53,7 @@ class Matcher {
     if (error_.places.size() < k_max_places) error_.places.push_back({place, std::move(what)});
   }
   Point middle(const Side& side) const {
-    // Relative to one node, so that small sides far from the origin keep their digits.
+    // Coordinates are relative to one node, so that small sides far from the origin keep their digits.
     const Point origin = points_[side.nodes.front()];
     Vec3 sum;
     for (const std::uint32_t n : side.nodes) sum += points_[n] - origin;

@@ -9,8 +9,8 @@
 
 namespace sterna {
 
-/// Returns the skew angle, eq. (13) of docs/method/quality.md, "Skew angle", in radians: mean angle between the three growth edges and the normals of base
-/// and top. pi/2 for a vanishing edge or normal.
+/// Returns the skew angle, eq. (13) of docs/method/quality.md, "Skew angle", in radians: the mean angle between the three growth edges and the normals of base
+/// and top. An edge or normal of zero length counts as pi/2.
 double skew_angle(const WedgePoints& p);
 
 /// Running minima and counts. Scans of consecutive chunks are merged in order; ties keep the first location.
@@ -22,7 +22,7 @@ class QualityScan {
     if (quality < wedge_.value) wedge_.lower(quality, middle(points()));
     add_skew(skew);
   }
-  /// Adds a pyramid or tet of a column over collapsed lines: not a prism, counted as skewed by more than 60 degrees.
+  /// Adds a pyramid or tet of a column over collapsed lines. It is no prism and counts as skewed by more than 60 degrees.
   void add_collapsed() { ++n_collapsed_; }
   /// Adds a tetrahedron. `range` = tet_dihedral_range(p).
   void add_tet(const std::array<Vec3, 4>& p, const std::array<double, 2>& range);

@@ -1,4 +1,5 @@
-// Steps of renumbered(): the graph of lines and free nodes (nodes of a line are one vertex), its order, the node numbers, and the sort of all items by them.
+// Steps of renumbered(): build the graph of lines and free nodes (the nodes of a line are one vertex), order it, number the nodes, and sort all items by the
+// numbers of their nodes.
 #include <algorithm>
 #include <array>
 #include <limits>
@@ -72,8 +73,8 @@ NeighbourGraph graph_of_groups(std::size_t n_vertices, const ForEachGroup& for_e
   return graph;
 }
 
-/// Wall-normal growth lines as nodes from the wall up: of the columns, or in a mesh without columns of the stacks of prisms on its walls. No node is on two
-/// lines.
+/// Wall-normal growth lines, each as its nodes from the wall up. They are the lines of the columns, or in a mesh without columns those of the stacks of prisms
+/// on its walls. No node is on two lines.
 struct NodeLines {
   std::vector<std::uint32_t> first = {0};
   std::vector<std::uint32_t> nodes;
@@ -142,7 +143,7 @@ NeighbourGraph line_graph(const HybridMesh& mesh, const LineVertices& vertices, 
       context);
 }
 
-/// Renumbers the nodes of the items and sorts the items by `rank` of the new numbers, lowest first, then by the numbers themselves.
+/// Renumbers the nodes of the items and sorts the items. The sort key is first `rank` of the new numbers, lowest first, then the numbers themselves.
 template <class Items, class NodesOf, class Rank>
 void renumber_and_sort(Items& items, const std::vector<std::uint32_t>& new_number, const NodesOf& nodes_of, const Rank& rank) {
   struct Keyed {

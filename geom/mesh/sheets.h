@@ -12,8 +12,8 @@ namespace sterna {
 
 inline constexpr std::uint32_t k_no_side = 0xffffffffu;
 
-/// For each boundary face of a mesh (triangles, then quadrilaterals): the coincident face of opposite sense, corner on corner to the bit; k_no_side for other
-/// faces. Empty if there are none. Considers only patches of kind interface. Serial, O(n log n) in the number of their faces.
+/// Stores for each boundary face of a mesh (triangles, then quadrilaterals) the face of opposite sense whose corners coincide with its corners to the bit, or
+/// k_no_side if there is none. Empty if no faces coincide. Considers only patches of kind interface. Serial, O(n log n) in the number of their faces.
 struct SheetSides {
   std::vector<std::uint32_t> other_side;  ///< per face
   std::vector<std::uint32_t> twin;        ///< per node: itself, or the coincident node of the first side (the side with the smaller number)
@@ -25,7 +25,7 @@ struct SheetSides {
 
 /// \pre patch indices in range (faces with other indices belong to no baffle); node indices in range, coordinates finite
 SheetSides find_sheet_sides(const HybridMesh& mesh);
-/// As above, for triangles and vertices of a surface.
+/// Finds the two sides of baffles among the triangles and vertices of a surface.
 SheetSides find_sheet_sides(const TriMesh& mesh);
 
 }  // namespace sterna

@@ -9,7 +9,7 @@
 namespace sterna {
 namespace {
 
-/// Leaf size: the test of a site costs less than that of a box.
+/// Number of sites in a leaf. It is not 1, because testing a site costs less than testing a box.
 constexpr std::uint32_t k_leaf_sites = 8;
 
 float below(double x) { return std::nextafter(static_cast<float>(x), -std::numeric_limits<float>::infinity()); }

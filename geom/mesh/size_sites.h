@@ -18,7 +18,8 @@ struct SizeSite {
   double size = 0.0;  ///< m, positive
 };
 
-/// Hierarchy over sites for min over sites of (size + slope * distance), a nearest-neighbour search with additive weights. Queries are thread-safe.
+/// Hierarchy over sites that computes the minimum over all sites of (size + slope * distance), a nearest-neighbour search with additive weights. Queries are
+/// thread-safe.
 class SizeSites {
  public:
   /// Builds the tree in parallel, O(n log n).
@@ -28,14 +29,14 @@ class SizeSites {
   struct Search {
     double cap = std::numeric_limits<double>::infinity();  ///< m, the result if no site gives less
     double reach = 0.0;                                    ///< m; sizes grow only beyond this distance; within it the smallest size counts
-    /// Boxes are not opened if they could lower the value by less than this fraction. Example: at the centre of a circle, all points of the circle are
-    /// equally near.
+    /// Boxes are not opened if they could lower the value by less than this fraction. This saves time if many sites are equally near, as at the centre of a
+    /// circle.
     double tolerance = 0.0;
   };
   /// Returns the minimum over all sites, exact to rounding except for the search's tolerance.
   double smallest(const Point& p, const Search& search) const;
-  /// As above, without cap, reach and tolerance. \p hint: a site to start from, set to the site that gave the minimum (any value below size() is correct; a
-  /// hint from a neighbouring point makes the search short).
+  /// Returns the minimum without cap, reach and tolerance. \p hint: a site to start from; it is set to the site that gave the minimum. Any value below size()
+  /// is correct, and a hint from a neighbouring point makes the search short.
   /// \pre size() > 0
   double smallest(const Point& p, std::uint32_t& hint) const;
   std::size_t size() const { return sites_.size(); }
@@ -44,8 +45,8 @@ class SizeSites {
   struct Node {
     std::array<float, 3> min, max;  ///< rounded outwards
     float smallest;                 ///< smallest size in the subtree, rounded down
-    std::uint32_t first;            ///< leaf: first site; inner: left child, the right one follows
-    std::uint32_t count;            ///< leaf: number of sites; inner: 0
+    std::uint32_t first;            ///< leaf: first site; inner node: left child, which the right child follows
+    std::uint32_t count;            ///< leaf: number of sites; inner node: 0
   };
   double lower_bound(const Node& node, const Point& p, double reach) const;
   /// Calls found(site, value) for each site that lowers `best`.

@@ -32,7 +32,7 @@ struct SurfaceField {
 ///   min_angle     smallest corner angle, degrees
 ///   aspect        triangles: longest edge over the height on it, times sqrt(3)/2 (regular: 1); quads: longer over shorter mean of opposite edges
 ///   area_ratio    largest area ratio to a face across an edge (the larger over the smaller), among faces with as many corners and patches of the same kind
-///   layer_height  mean of its three lines from the wall to the end (chords; collapsed lines count 0), m
+/// layer_height  mean over its three lines of the distance from the wall to the end of the line (collapsed lines count 0), m
 ///   first_height  mean length of the first step of its lines that are not collapsed, m
 ///   coverage      mean over its lines of height along the wall normal over target height, at most 1 each; only if the mesh has a layer request
 ///   layers        cells of the longest line

@@ -17,8 +17,8 @@ struct SurfaceSoup {
   std::vector<std::string> patch_names;                 ///< not empty if there are triangles; names may be empty strings
   bool single_precision = false;                        ///< the coordinates were stored as 32-bit floats (binary STL, float PLY, ...)
   bool has_names = false;                               ///< the file itself named (or numbered) its patches
-  std::uint64_t n_cells = 0;                            ///< cells of the volume mesh in the file, whose boundary this is; 0: the file holds a surface
-  std::string source;                                   ///< file name for messages
+  std::uint64_t n_cells = 0;  ///< number of cells of the volume mesh in the file if the soup is its boundary; 0 if the file holds a surface
+  std::string source;         ///< file name for messages
 };
 
 }  // namespace sterna

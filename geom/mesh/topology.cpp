@@ -1,5 +1,5 @@
-// Finds twins without a global sort. The half-edges that touch a vertex are its outgoing half-edges and their predecessors, so an edge is processed at its
-// lower vertex from the vertex's own short list, sorted by (neighbour, sense, id).
+// Finds twins without a global sort. The half-edges that touch a vertex are its outgoing half-edges and their predecessors. Each edge is therefore processed at
+// its lower vertex, from the vertex's own short list, sorted by (neighbour, sense, id).
 #include "geom/mesh/topology.h"
 
 #include <string>
@@ -26,7 +26,7 @@ struct BadEdge {
   std::uint32_t n_forward = 0, n_backward = 0;
 };
 
-/// Sorts half-edges by starting vertex, in order of their id (counting sort; two streaming passes are faster than any parallel sort here).
+/// Sorts half-edges by starting vertex, then by id. This counting sort with two streaming passes is faster than any parallel sort here.
 void sort_by_origin(std::size_t n_vertices, const Column<HalfedgeId, VertexId>& from, std::vector<std::uint64_t>& first, std::vector<HalfedgeId>& sorted) {
   first.assign(n_vertices + 1, 0);
   for (const VertexId v : from) ++first[v.index() + 1];
@@ -80,7 +80,7 @@ Topology::Topology(const TriMesh& mesh, const RunContext& context) {
   sort_by_origin(n_vertices, from_, first_outgoing_, outgoing_);
 
   twin_.resize(n_halfedges);
-  // A vertex has at most two neighbours per triangle; the list of v is compacted from slot 2 * first_outgoing_[v].
+  // A vertex has at most two neighbours per triangle. The list of v is compacted and starts at slot 2 * first_outgoing_[v].
   std::vector<VertexId> slots(2 * n_halfedges);
   first_neighbour_.assign(n_vertices + 1, 0);
   const std::vector<BadEdge> bad = parallel_reduce(

@@ -43,7 +43,7 @@ class Topology {
   std::size_t n_boundary_ = 0;
 };
 
-/// Component number of every triangle (connected over edges), in the order of their first triangles, and the number of components.
+/// Component number of every triangle, and the number of components. Components are connected over edges and numbered in the order of their first triangles.
 struct Components {
   Column<TriangleId, std::uint32_t> component;
   std::uint32_t count = 0;

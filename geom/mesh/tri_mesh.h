@@ -1,5 +1,5 @@
-// Triangulated surface with named patches: the wall, a farfield, an envelope's connectivity. Closed or with boundary; always manifold
-// and consistently oriented once it has passed surfmesh::stitch_surface.
+// Triangulated surface with named patches: the wall, a farfield, or the connectivity of an envelope. It is closed or has a boundary. Once it has passed
+// surfmesh::stitch_surface it is manifold and consistently oriented.
 #pragma once
 
 #include <cstdint>

@@ -1,4 +1,4 @@
-// TriangleTree: nearest point, ray, winding number.
+// TriangleTree: finds the nearest point, hits of a ray, and the winding number.
 //
 // Based on: C. Ericson, "Real-Time Collision Detection" (2005), section 5.3, for the slab test; A. Van Oosterom,
 // J. Strackee, IEEE Trans. Biomed. Eng. 30 (1983), for the solid angle; G. Barill et al., "Fast winding numbers for soups and clouds", ACM Trans. Graph.
@@ -20,13 +20,13 @@ namespace {
 using TreeCorners = std::array<Point, 3>;
 
 /// A node's far field is used beyond this many radii from its centre. The winding number is then accurate to 0.05 in the tests (0.013 on aircraft surfaces,
-/// 0.12 without the second moments); an error of 1/2 would be undecided.
+/// 0.12 without the second moments). An error of 1/2 would leave it undecided.
 constexpr double k_far_radii = 3.0;
-/// Rounding of a distance between a point and a triangle, in units of the largest coordinate: a few operations on each coordinate. The margin prevents that a
-/// box is skipped although one of its triangles is, as computed, equally near.
+/// Rounding of a distance between a point and a triangle, in units of the largest coordinate: a few operations on each coordinate. The margin ensures that no
+/// box is skipped if one of its triangles is, as computed, equally near.
 constexpr double k_distance_rounding = 16 * 0x1p-53;
-/// Rounding of a ray's slab parameters, relative, and of its barycentric coordinates, relative to the absolute values of their terms. The margin is generous,
-/// because a hit near an edge must not be lost by both triangles.
+/// Rounding of a ray's slab parameters (relative) and of its barycentric coordinates (relative to the absolute values of their terms). The margin is generous,
+/// because both triangles at an edge must not miss a hit near it.
 constexpr double k_ray_rounding = 64 * 0x1p-53;
 /// As in BoxTree::for_each_overlap.
 constexpr int k_stack = 64;
@@ -77,7 +77,7 @@ std::optional<double> hit_parameter(const Point& p, const Vec3& d, const TreeCor
 double solid_angle(const Point& p, const TreeCorners& t) {
   const Vec3 a = t[0] - p, b = t[1] - p, c = t[2] - p;
   const double la = norm(a), lb = norm(b), lc = norm(c);
-  // a . (b x c) with the edges of the triangle: no cancellation when p is far away.
+  // Computed as a . (b x c) with the edges of the triangle, so that no digits cancel if p is far away.
   const double volume = dot(a, cross(t[1] - t[0], t[2] - t[0]));
   return 2.0 * std::atan2(volume, la * lb * lc + dot(a, b) * lc + dot(b, c) * la + dot(c, a) * lb);
 }

@@ -97,7 +97,7 @@ bool encloses_fluid(const VolumeRegion& shell) {
 std::vector<VolumeRegion> volume_regions(const HybridMesh& mesh) {
   const std::vector<VolumeRegion> shells = sum_up(mesh, shell_of_nodes(mesh));
   const std::vector<std::uint32_t> one(mesh.points.size(), 0);
-  // Each region is enclosed by one part of the boundary, so cells are traversed only if there are several such parts.
+  // Each region is enclosed by one part of the boundary. Cells are therefore traversed only if several parts enclose fluid.
   return sum_up(mesh, std::ranges::count_if(shells, encloses_fluid) > 1 ? region_of_nodes(mesh) : one);
 }
 

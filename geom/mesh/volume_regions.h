@@ -16,9 +16,9 @@ struct VolumeRegion {
   std::vector<std::string> patches;  ///< on its boundary, in the order of the mesh
 };
 
-/// Returns the regions of cells that share no node with each other, by volume, largest first. The two sides of a disc belong together. Volumes are computed
-/// from the boundary triangles; a quadrilateral counts as two triangles. Empty for a mesh without boundary. Serial; linear in the number of boundary faces
-/// for one region, of cells for more.
+/// Returns the regions of cells that share no node with each other, largest volume first. The two sides of a disc belong together. Volumes are computed from
+/// the boundary triangles; a quadrilateral counts as two triangles. Empty for a mesh without boundary. Serial. The time is linear in the number of boundary
+/// faces if there is one region, else in the number of cells.
 /// \pre indices in range
 std::vector<VolumeRegion> volume_regions(const HybridMesh& mesh);
 

@@ -43,8 +43,8 @@ class WallSections {
   std::uint32_t extreme_node(const Vec3& direction) const;
   /// Returns the centre of the wall triangle that is nearest to a plane.
   Point nearest_to(const Point& origin, const Vec3& normal) const;
-  /// Returns the longest chain of edges that turn by more than `least` radians: concave (towards the fluid) or convex; if requested, only edges between two
-  /// patches. Empty if there is none.
+  /// Returns the longest chain of concave (towards the fluid) or convex edges that turn by more than `least` radians. If requested, only edges between two
+  /// patches are considered. Empty if there is none.
   EdgeChain longest_chain(double least, bool is_concave, bool between_patches) const;
   /// Returns the mean edge of the triangles at the node nearest to a point, m.
   double edge_near(const Point& p) const;

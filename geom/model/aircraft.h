@@ -1,5 +1,5 @@
-// An aircraft as data, as described by .smx and CPACS files and scripts, before any surface is built from it. Plain structs; metres, radians, x aft, y to the
-// right wing, z up.
+// An aircraft as data, as described by .smx and CPACS files and scripts, before any surface is built from it. The data are plain structs in metres and radians,
+// with x aft, y to the right wing and z up.
 #pragma once
 
 #include <cstdint>
@@ -14,7 +14,7 @@
 
 namespace sterna {
 
-/// Position and orientation of a component: rotations about the fixed axes x, then y, then z, then the translation to `origin`.
+/// Position and orientation of a component. It is first rotated about the fixed axes x, then y, then z, and then translated to `origin`.
 struct Placement {
   Point origin;
   Vec3 rotation;  ///< radians
@@ -45,7 +45,7 @@ struct RefinementRegion {
 struct MeshCriterion {
   bool is_automatic = false;  ///< the limits below are only results of an earlier run
   bool is_wing = false;
-  bool is_stretched = false;  ///< anisotropic along the span (sumo: xcoarse)
+  bool is_stretched = false;  ///< edge lengths are anisotropic along the span (sumo: xcoarse)
   std::optional<double> max_edge, min_edge;
   std::optional<double> max_normal_angle;  ///< radians between normals of a triangle
   std::optional<double> max_stretch;
@@ -62,11 +62,11 @@ struct MeshCriterion {
 
 enum class FrameShape { points, circle, ellipse, double_ellipse, egg, isikveren, loop };
 
-/// Cross section of a body in a plane x = const; of shape `loop`: any closed curve in space.
+/// Cross section of a body in a plane x = const. A section of shape `loop` may be any closed curve in space.
 struct BodyFrame {
   std::string name;
-  Point center;         ///< component axes
-  double height = 1.0;  ///< full, metres
+  Point center;         ///< m, in component axes
+  double height = 1.0;  ///< m, full height
   double width = 1.0;
   FrameShape shape = FrameShape::circle;
   bool is_symmetric = true;
@@ -74,7 +74,7 @@ struct BodyFrame {
   double exponent = 2.0;                          ///< ellipse: |y|^n + |z|^n = 1
   double offset = 0.0;                            ///< double ellipse: height of the widest point, relative to the half height
   double distortion = 0.0;                        ///< Huegelschaeffer's egg
-  double zp = 0.0, a0 = 0.0, a1 = 0.0, b1 = 0.0;  ///< Isikveren's section, as in CEASIOM
+  double zp = 0.0, a0 = 0.0, a1 = 0.0, b1 = 0.0;  ///< parameters of Isikveren's section, as in CEASIOM
   /// Shape `points`: right half from the bottom (0, -1) to the top (0, 1), u = y / (width / 2), v = z / (height / 2).
   std::vector<Uv> points;
   /// Shape `loop`: the whole section in component axes, from the bottom over the right side, the top and the left side; not closed by a repeated point.
@@ -82,7 +82,7 @@ struct BodyFrame {
   friend bool operator==(const BodyFrame&, const BodyFrame&) = default;
 };
 
-/// Inner lip of an inlet in place of the front cap: down to a flat fan face.
+/// Inner lip of an inlet that replaces the front cap and leads down to a flat fan face.
 struct InletLip {
   double axial_offset = 0.4;   ///< depth of the fan face behind the front frame, in mean front radii
   double radial_offset = 0.2;  ///< reduction of the fan face radius, in mean front radii
@@ -90,7 +90,7 @@ struct InletLip {
   friend bool operator==(const InletLip&, const InletLip&) = default;
 };
 
-/// Interpolation of a body along its frames, as SplineTangents. Between two frames all kinds are straight.
+/// Interpolation of a body along its frames, named as in SplineTangents. With two frames only, all kinds are straight.
 enum class BodyTangents {
   bessel,    ///< .smx, CPACS
   akima,     ///< .smx: straight parts stay straight
@@ -100,7 +100,7 @@ enum class BodyTangents {
 
 struct Body {
   std::string name;
-  ComponentKind kind = ComponentKind::body;  ///< components with an inlet lip: always a nacelle
+  ComponentKind kind = ComponentKind::body;  ///< components with an inlet lip are always nacelles
   Placement placement;
   BodyTangents tangents = BodyTangents::bessel;  ///< from frame to frame
   bool has_mirror_image = false;                 ///< a mirror image exists on the other side of y = 0
@@ -113,21 +113,22 @@ struct Body {
 
 // ---------------------------------------------------------------------------------------------------------------------- wings
 
-/// Trailing edge and leading edge flaps; the whole chord.
+/// Control surface at the trailing edge or at the leading edge, or of the whole chord.
 enum class ControlKind { trailing_edge, leading_edge, all_moving };
 std::string_view to_string(ControlKind kind);
 
-/// Named part of a wing's surface, behind (or ahead of) a border across sections, or the whole chord: the location of a control surface.
+/// Named part of a wing's surface: the location of a control surface. It lies behind (or ahead of) a border across sections, or is the whole chord.
 struct WingPatch {
   struct Place {
     double section = 0.0;  ///< number of the section, counted from tip to tip (both halves of a symmetric wing); fractions: between two sections
-    double upper = 1.0;    ///< where the border crosses the upper side: parameter of rows (section_rows.h), 0 trailing edge .. 1 leading edge
+    double upper = 1.0;    ///< where the border crosses the upper side: parameter of rows (section_rows.h), from 0 at the trailing edge to 1 at the leading
+                           ///< edge
     double lower = 1.0;
     friend bool operator==(const Place&, const Place&) = default;
   };
   /// The moving part is a separate solid. The rest of the wing has a cut-out with a cove and side walls, and ends at the patch's border.
   struct Slot {
-    std::vector<Place> hinge;     ///< where the hinge fraction crosses the sides, at the sections of the border
+    std::vector<Place> hinge;     ///< points at the sections of the border where the hinge crosses the upper and lower side
     double from = 0.0, to = 0.0;  ///< sections between which the moving part extends, within those of the border
     bool is_flat = false;         ///< nose of the moving part is flat
     Transform motion;             ///< motion of the moving part, component axes
@@ -135,7 +136,7 @@ struct WingPatch {
   };
   std::string name;
   ControlKind kind = ControlKind::trailing_edge;
-  std::vector<Place> border;  ///< at least 2, ascending sections; straight between them in the parameters of the sides
+  std::vector<Place> border;  ///< at least 2, by ascending section; between them the border is straight in the parameters of the sides
   std::optional<Slot> slot;
   friend bool operator==(const WingPatch&, const WingPatch&) = default;
 };
@@ -144,9 +145,9 @@ struct WingSection {
   std::string name;
   Point leading_edge;  ///< component axes
   double chord = 1.0;
-  double twist = 0.0;      ///< about +y: nose up
-  double dihedral = 0.0;   ///< about +x
-  double yaw = 0.0;        ///< about +z
+  double twist = 0.0;      ///< rotation about +y (nose up)
+  double dihedral = 0.0;   ///< rotation about +x
+  double yaw = 0.0;        ///< rotation about +z
   std::string airfoil;     ///< label
   std::vector<Uv> points;  ///< unit chord, u = x, v = z: trailing edge, upper side, leading edge, lower side, trailing edge
   /// If not empty, the points of the airfoil in component axes, in the same order; chord and angles above are ignored.
@@ -154,7 +155,7 @@ struct WingSection {
   bool is_row = false;       ///< `loop` holds exactly the points that surfaces are splined through (section_rows.h); they are not resampled
   bool is_break = false;     ///< the wing has a kink here
   bool is_reversed = false;  ///< airfoil upside down
-  int n_approximation = -1;  ///< points of sumo's least-squares airfoil; -1: interpolate
+  int n_approximation = -1;  ///< number of points of sumo's least-squares airfoil; -1: the airfoil is interpolated
   std::string naca;          ///< designation given in a file in place of points
   std::optional<double> extend_leading_x, extend_leading_y, extend_trailing_x, extend_trailing_y;  ///< sumo's fairing airfoils; kept, not applied
   friend bool operator==(const WingSection&, const WingSection&) = default;
@@ -166,7 +167,7 @@ struct Wing {
   Placement placement;
   bool is_symmetric = false;
   bool has_winglet = false;       ///< elliptic arcs replace the wing just inboard of the winglet's root, if there is a winglet (winglet_blend.h)
-  bool has_mirror_image = false;  ///< a mirror image exists on the other side of y = 0 (a wing that does not reach the plane)
+  bool has_mirror_image = false;  ///< a mirror image exists on the other side of y = 0, for a wing that does not reach that plane
   bool is_pylon = false;
   bool is_cubic = false;                ///< cubic along the span between breaks; else straight
   std::vector<WingSection> sections;    ///< at least 2
@@ -187,7 +188,7 @@ struct CowlSection {
   std::vector<Uv> profile;  ///< u = x, v = distance from the axis: trailing edge, inner side, leading edge, outer side, trailing edge
   friend bool operator==(const CowlSection&, const CowlSection&) = default;
 };
-/// Ring about the axis x; one section: a body of revolution.
+/// Ring about the axis x. With one section it is a body of revolution.
 struct Cowl {
   std::string name;
   std::vector<CowlSection> sections;  ///< ascending angle
@@ -205,7 +206,7 @@ struct CowlNacelle {
 // ---------------------------------------------------------------------------------------------------------------------- systems
 
 struct HingePoint {
-  double span = 0.0;   ///< fraction of the wing's length along the mid-chord line: 0 right tip .. 1 left tip; beyond the ends: over the tip
+  double span = 0.0;   ///< fraction of the wing's length along the mid-chord line, from 0 at the right tip to 1 at the left tip; values beyond are over the tip
   double chord = 0.0;  ///< fraction from the leading edge
   friend bool operator==(const HingePoint&, const HingePoint&) = default;
 };
@@ -213,8 +214,8 @@ struct ControlSurface {
   std::string name;
   std::string wing;
   ControlKind kind = ControlKind::trailing_edge;
-  std::vector<HingePoint> hinge;  ///< at least 2, ascending span; segments between them are named <name>Segment0, 1, ... where there are several
-  bool has_image = false;         ///< an image exists on the wing's other half or on its mirror image; else the file describes that surface separately
+  std::vector<HingePoint> hinge;  ///< at least 2, by ascending span; if there are several segments between them, they are named <name>Segment0, 1, ...
+  bool has_image = false;  ///< true if an image exists on the wing's other half or on its mirror image; false if the file describes that surface separately
   friend bool operator==(const ControlSurface&, const ControlSurface&) = default;
 };
 
@@ -224,7 +225,7 @@ enum class ControlGap {
 };
 /// Motion of the image of a control surface on the wing's other half (or on the wing's mirror image).
 enum class OtherSide { none, same, opposite };
-/// Deflection of a control surface; with zero angle: a patch with the surface's name.
+/// Deflection of a control surface. With zero angle it is a patch with the surface's name.
 struct Deflection {
   ControlSurface surface;
   double angle = 0.0;                    ///< radians; positive: trailing edge down (leading edge flaps: leading edge down; all-moving: nose up)
@@ -233,7 +234,7 @@ struct Deflection {
   double slot = k_automatic_slot;                      ///< open: metres between the wing's cove and the nose of the moving part
   double end_gap = k_automatic_slot;                   ///< open: metres along the span between the moving part and each end
   bool has_flat_nose = false;                          ///< open: flat nose; else round about the hinge
-  OtherSide other_side = OtherSide::none;              ///< the name of the image follows the rule of make_components for mirror images ("aileron" ->
+  OtherSide other_side = OtherSide::none;              ///< motion of the image; its name follows the rule of make_components for mirror images ("aileron" ->
                                                        ///< "aileronLeft")
   static constexpr double k_automatic_fairing = -1.0;  ///< a tenth of the mean chord at its ends
   static constexpr double k_automatic_slot = -1.0;     ///< a hundredth of the mean chord at its ends
@@ -289,8 +290,8 @@ struct Aircraft {
   std::vector<Wing> wings;
   std::vector<CowlNacelle> nacelles;
   std::vector<ControlSurface> control_surfaces;
-  std::vector<Deflection> deflections;  ///< for control surfaces of the list above and others; a control surface without a deflection gives its name to its
-                                        ///< patch
+  std::vector<Deflection> deflections;  ///< deflections of the control surfaces below and of others; a control surface without a deflection gives its name to
+                                        ///< its patch
   std::vector<Control> controls;
   std::vector<JetEngine> engines;
   std::optional<SumoSettings> sumo;
@@ -299,11 +300,11 @@ struct Aircraft {
   friend bool operator==(const Aircraft&, const Aircraft&) = default;
 };
 
-/// An aircraft and messages about file contents that it does not represent: each message gives line, element, and how it was handled.
+/// An aircraft and messages about file contents that it does not represent. Each message gives the line, the element, and how the contents were handled.
 struct AircraftReading {
   Aircraft aircraft;
   std::vector<std::string> messages;
-  std::vector<std::string> notes = {};  ///< contents that are omitted by design; not warnings
+  std::vector<std::string> notes = {};  ///< messages about contents that are omitted by design; they are not warnings
 };
 
 }  // namespace sterna

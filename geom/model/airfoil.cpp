@@ -119,7 +119,7 @@ Airfoil with_trailing_edge(const Airfoil& airfoil, double thickness) {
     return result;
   }
   if (!(old > 0.0)) return result;
-  // Rotate (and slightly stretch as needed) each side about the leading edge until its end is at the required position.
+  // Rotate each side about the leading edge, and stretch it slightly, until its end is at the required position.
   const double keep = thickness / old;
   const auto as_complex = [&](Uv p) { return std::complex<double>(p.u - nose.u, p.v - nose.v); };
   const auto turn = [&](Uv end) {

@@ -1,4 +1,5 @@
-// Airfoil sections: read from files, generated from NACA designations, trailing edge opened or closed, repaneled, converted to splines.
+// Airfoil sections. They are read from files or generated from NACA designations, their trailing edge is opened or closed, and they are repaneled or converted
+// to splines.
 #pragma once
 
 #include <filesystem>
@@ -49,7 +50,7 @@ Airfoil with_trailing_edge(const Airfoil& airfoil, double thickness);
 /// Returns the airfoil with its leading edge (the spline's point of least x) at the origin and unit chord: the midpoint of the trailing edge is at x = 1.
 Airfoil normalized(const Airfoil& airfoil);
 
-/// The section as curves in the plane y = 0, point (x, 0, z): cubic splines over chord length through all points.
+/// The section as curves in the plane y = 0. They are cubic splines over chord length through all points (x, 0, z).
 struct AirfoilCurves {
   CurvePtr around;            ///< t in [0, 1] from the trailing edge over the upper side
   double leading_edge = 0.5;  ///< parameter of the leading edge (least x)

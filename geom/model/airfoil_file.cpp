@@ -1,4 +1,5 @@
-// Steps: split into lines of two numbers -> detect the layout -> points around the section -> scale to the chord -> orientation -> check the shape.
+// Steps: split the text into lines of two numbers, detect the layout, order the points around the section, scale them to the chord, correct the orientation,
+// and check the shape.
 #include <algorithm>
 #include <charconv>
 #include <cmath>
@@ -14,9 +15,9 @@ namespace {
 
 /// Lines of text before the points (name, remarks).
 constexpr int k_max_header_lines = 12;
-/// A chord within these limits is 1 up to rounding and custom: such files are not scaled.
+/// A chord within these limits counts as 1, except for rounding and conventions of file writers: such files are not scaled.
 constexpr double k_least_unit_chord = 0.95, k_greatest_unit_chord = 1.05;
-/// Radians: a polyline that turns by more at a point reverses its direction (sumo's limit: 175 degrees).
+/// Radians. A polyline that turns by more at a point reverses its direction (sumo's limit: 175 degrees).
 constexpr double k_sharpest_turn = 3.0543;
 constexpr std::size_t k_fewest_points = 5;
 
@@ -107,7 +108,7 @@ class Parser {
       if (!values) fail(line.number, "\"" + std::string(line.text) + "\" is not two numbers");
       if (values->size() != 2) fail(line.number, std::to_string(values->size()) + " numbers, expected 2");
       const double x = (*values)[0], z = (*values)[1];
-      if (points_.empty() && counts_.empty() && x > 1.5 && z > 1.5) {  // Lednicer's counts; the first point of a section is never in this range
+      if (points_.empty() && counts_.empty() && x > 1.5 && z > 1.5) {  // these are Lednicer's counts: the first point of a section is never in this range
         if (x != std::floor(x) || z != std::floor(z) || x > 1e5 || z > 1e5) fail(line.number, "counts of points that are not whole numbers");
         counts_ = {static_cast<std::size_t>(x), static_cast<std::size_t>(z)};
         continue;

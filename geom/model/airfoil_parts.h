@@ -8,7 +8,7 @@
 
 namespace sterna::airfoil_parts {
 
-/// Relative to the chord: points of a file that are closer are treated as one point.
+/// Points of a file that are closer than this, relative to the chord, are treated as one point.
 inline constexpr double k_same_point = 1e-7;
 
 /// Returns the index of the point with the smallest x; of several the middle one.

@@ -8,7 +8,7 @@
 namespace sterna {
 namespace {
 
-/// Tolerance of a full turn, relative to it: rounding of angles in files.
+/// Relative tolerance of a full turn. It covers the rounding of angles in files.
 constexpr double k_whole_turn = 1e-12;
 
 bool is_turn(Interval range) { return std::abs(range.length() - k_full_turn.to) <= k_whole_turn * k_full_turn.to; }

@@ -11,7 +11,7 @@ namespace sterna {
 
 inline constexpr Interval k_full_turn{0.0, 2.0 * std::numbers::pi};
 
-/// origin + u x + v y.
+/// The plane origin + u x + v y.
 class PlaneSurface final : public Surface {
  public:
   /// \throws Error(bad_argument) for a box of zero size
@@ -28,7 +28,7 @@ class PlaneSurface final : public Surface {
   ParameterBox box_;
 };
 
-/// origin + a(v) (cos u x + sin u y) + b(v) z: base class of all surfaces of revolution below. Periodic in u if the box is a full turn.
+/// The surface origin + a(v) (cos u x + sin u y) + b(v) z: base class of all surfaces of revolution below. Periodic in u if the box is a full turn.
 class RoundSurface : public Surface {
  public:
   ParameterBox domain() const final { return box_; }
@@ -42,8 +42,8 @@ class RoundSurface : public Surface {
 
  private:
   struct Profile {
-    double a, a1, a2;  ///< distance from the axis, d/dv, d2/dv2
-    double b, b1, b2;  ///< height along the axis
+    double a, a1, a2;  ///< distance a(v) from the axis, with first and second derivative
+    double b, b1, b2;  ///< height b(v) along the axis, with first and second derivative
   };
   virtual Profile profile(double v) const = 0;
   friend class CylinderSurface;
@@ -54,7 +54,7 @@ class RoundSurface : public Surface {
   ParameterBox box_;
 };
 
-/// a = radius, b = v.
+/// Surface of revolution with a = radius, b = v.
 class CylinderSurface final : public RoundSurface {
  public:
   /// \throws Error(bad_argument) unless radius > 0 and the box has a size, at most a full turn in u; the same condition applies to the classes below
@@ -67,7 +67,7 @@ class CylinderSurface final : public RoundSurface {
   double radius_;
 };
 
-/// a = radius + v sin(half_angle), b = v cos(half_angle).
+/// Surface of revolution with a = radius + v sin(half_angle), b = v cos(half_angle).
 class ConeSurface final : public RoundSurface {
  public:
   /// \throws Error(bad_argument) also unless radius >= 0 and 0 < |half_angle| < pi/2
@@ -81,7 +81,7 @@ class ConeSurface final : public RoundSurface {
   double radius_, half_angle_;
 };
 
-/// a = radius cos v, b = radius sin v: poles at v = +-pi/2.
+/// Surface of revolution with a = radius cos v, b = radius sin v. It has poles at v = +-pi/2.
 class SphereSurface final : public RoundSurface {
  public:
   SphereSurface(const Frame& frame, double radius, const ParameterBox& box = {k_full_turn, {-0.5 * std::numbers::pi, 0.5 * std::numbers::pi}});
@@ -93,7 +93,7 @@ class SphereSurface final : public RoundSurface {
   double radius_;
 };
 
-/// a = major + minor cos v, b = minor sin v. Also periodic in v if the box is a full turn.
+/// Surface of revolution with a = major + minor cos v, b = minor sin v. It is also periodic in v if the box is a full turn.
 class TorusSurface final : public RoundSurface {
  public:
   TorusSurface(const Frame& frame, double major, double minor, const ParameterBox& box = {k_full_turn, k_full_turn});

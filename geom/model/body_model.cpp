@@ -1,4 +1,5 @@
-// Bodies: rows of points through the frames -> one surface, periodic around the body -> halves with shared edges at bottom and top -> ends.
+// Builds bodies in four steps: make rows of points through the frames; spline one surface through them, periodic around the body; split it into halves with
+// shared edges at bottom and top; close the ends.
 #include <algorithm>
 #include <cmath>
 #include <numbers>
@@ -175,8 +176,8 @@ void BodyBuilder::end(const Ring& ring, const EndCap& cap, FaceRole role, const 
   else builder_.plane({ring.halves[0], ring.halves[1]}, role, patch);
 }
 
-/// Closes a ring by half ellipses from the right to the left half, at every height of the ring, as rational quadratics: side, side + bulge, crest, side +
-/// bulge, side. The bulge is half the distance of both sides times the height, straight ahead; bottom and top are poles.
+/// Closes a ring by half ellipses from the right to the left half, at every height of the ring. They are rational quadratics with the poles side, side + bulge,
+/// crest, side + bulge, side. The bulge points straight ahead; it is half the distance of both sides times the height. Bottom and top are poles of the surface.
 void BodyBuilder::strip(const Ring& ring, double height, FaceRole role, const std::string& name) {
   const NurbsCurveForm<Point> around_body = *builder_.model().edges[ring.halves[0]].curve->exact_nurbs();
   const NurbsCurveForm<Point> right = restricted(around_body, {0.0, 0.5}), left = reversed(restricted(around_body, {0.5, 1.0}));
@@ -194,9 +195,9 @@ void BodyBuilder::strip(const Ring& ring, double height, FaceRole role, const st
   builder_.patch(std::make_shared<NurbsSurface>(form), {{0.0, 0.5}, {0.0, 1.0}}, {ring.halves[0], top, ring.halves[1], bottom}, role, name);
 }
 
-/// Closes a ring by quarter ellipses from the ring to a crown point, as rational quadratics: base, base + slope of the body, crown. All middle poles lie in the
-/// plane of the crown, so the crown is smooth. They lie along the body's own slope, so the base is also smooth, unless that would pinch the dome: then they are
-/// straight ahead.
+/// Closes a ring by quarter ellipses from the ring to a crown point. They are rational quadratics with the poles base, base + slope of the body, crown. All
+/// middle poles lie in the plane of the crown, so the crown is smooth. They lie along the body's own slope, so the base is also smooth. If that would pinch the
+/// dome, they are straight ahead instead.
 void BodyBuilder::dome(const Ring& ring, double height, FaceRole role, const std::string& name) {
   const Point middle = middle_of(ring.poles);
   Vec3 ahead = unit_normal(ring.poles);
@@ -234,7 +235,8 @@ void BodyBuilder::dome(const Ring& ring, double height, FaceRole role, const std
   halves(form, ring.halves, {builder_.pole(top), builder_.pole(top)}, ring.corners, {top, top}, role, name);
 }
 
-/// Builds the surface from the front frame around the lip and back to a flat fan face; it leaves the frame along the body's own slope, so the lip is round.
+/// Builds the surface from the front frame around the lip and back to a flat fan face. The surface leaves the frame along the body's own slope, so the lip is
+/// round.
 void BodyBuilder::lip(const Ring& ring) {
   const InletLip& lip = *body_.lip;
   const Point middle = middle_of(ring.poles);

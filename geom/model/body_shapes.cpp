@@ -1,4 +1,4 @@
-// Bodies defined by a few numbers: of revolution, booms, fairings, stings.
+// Bodies defined by a few numbers: bodies of revolution, booms, fairings and stings.
 #include <cmath>
 #include <numbers>
 
@@ -66,7 +66,7 @@ Body fairing_body(const std::string& name, const Point& position, const FairingO
   const auto add = [&](double x, double size) {
     body.frames.push_back(size > 0.0 ? frame(x * o.length, size * o.width, size * o.height, o.exponent) : point_frame(x * o.length));
   };
-  constexpr int k_front = 10, k_rear = 8;  // a quarter ellipse to the largest section, a parabola to the point
+  constexpr int k_front = 10, k_rear = 8;  // number of frames: a quarter ellipse up to the largest section, then a parabola to the point at the rear
   for (int i = 0; i < k_front; ++i) {
     const double a = 0.5 * std::numbers::pi * i / k_front;
     add(o.thickest * (1.0 - std::cos(a)), std::sin(a));

@@ -10,7 +10,7 @@
 
 namespace sterna {
 
-/// Names of the patches at a body's ends where engines begin or end; empty: the name of the body.
+/// Names of the patches at a body's ends where engines begin or end. An empty name stands for the name of the body.
 struct BodyEnds {
   std::string nose;
   std::string tail;
@@ -30,9 +30,9 @@ Model make_wing(const Wing& wing, const Transform& map = {});
 /// circle is approximated to 3e-6 of its radius). The center body is closed at both ends: an end whose radius is not zero is closed by a flat face.
 Model make_nacelle(const CowlNacelle& nacelle, const Transform& map = {});
 
-/// Builds all components of an aircraft side by side, including mirror images ("RightPod" -> "LeftPod", "pod" -> "podLeft"), each as a separate solid; not
-/// united. Wings include their deflections (deflection.h). Control surfaces that are not deflected give their name and the role control to their part of the
-/// skin. Fan faces and nozzles of engines are named <engine>Intake and <engine>Exhaust (numbered if there are several).
+/// Builds all components of an aircraft in parallel, each as a separate solid; they are not united. Mirror images are included ("RightPod" -> "LeftPod", "pod"
+/// -> "podLeft"). Wings include their deflections (deflection.h). Control surfaces that are not deflected give their name and the role control to their part of
+/// the skin. Fan faces and nozzles of engines are named <engine>Intake and <engine>Exhaust (numbered if there are several).
 Model make_components(const Aircraft& aircraft, const RunContext& context);
 
 }  // namespace sterna

@@ -1,4 +1,5 @@
-// Nacelles of CPACS engines: rings of sections about the x axis (translations of sections are cylindrical: angle, x, radius) and a center body.
+// Reads nacelles of CPACS engines: rings of sections about the x axis, and a center body. Translations of sections are given in the cylindrical coordinates
+// angle, x and radius.
 #include <algorithm>
 #include <cmath>
 

@@ -1,4 +1,4 @@
-// Profiles of CPACS: lists of points, cst2D, standard profiles.
+// Reads profiles of CPACS: lists of points, cst2D, and standard profiles.
 #include <algorithm>
 #include <array>
 #include <cmath>
@@ -15,7 +15,7 @@ using Node = pugi::xml_node;
 
 /// Points of a unit profile nearer than this are one repeated point: files have 6 digits and more.
 constexpr double k_same_profile_point = 1e-9;
-/// Points on each side of an airfoil given by a formula, and on each quarter of a fuselage profile: chord error below 1e-4 of the size.
+/// Number of points on each side of an airfoil given by a formula, and on each quarter of a fuselage profile. The chord error is below 1e-4 of the size.
 constexpr int k_profile_side_points = 60;
 constexpr int k_quarter_points = 16;
 

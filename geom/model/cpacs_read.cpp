@@ -1,5 +1,5 @@
-// Reader of CPACS. Steps: header; positions of the components (translations may depend on those of their parents); wings and pylons; fuselages; nacelles;
-// report of other contents of the model.
+// Reader of CPACS. Steps: read the header; find the positions of the components (translations may depend on those of their parents); read wings and pylons,
+// fuselages, and nacelles; report other contents of the model.
 #include <algorithm>
 #include <cmath>
 #include <map>
@@ -108,7 +108,7 @@ class Reader {
   AircraftReading reading_;
 };
 
-/// Reads an optional part of an aircraft: a part that cannot be read is reported and omitted, the rest is read.
+/// Reads an optional part of an aircraft. A part that cannot be read is reported and omitted, and reading continues.
 template <class Read>
 void Reader::or_leave_out(const char* what, const Read& read) {
   try {
@@ -165,7 +165,7 @@ Transform Reader::place_of(const Node& component) {
   return t.matrix();
 }
 
-/// Returns the positions of the sections: each relative to another one by length, sweep and dihedral.
+/// Returns the positions of the sections. Each position is given relative to another section by length, sweep and dihedral.
 std::map<std::string, Vec3> Reader::positionings(const Node& component) {
   struct Step {
     Node node;
@@ -283,10 +283,10 @@ void Reader::wing(const Node& node, bool is_pylon) {
   reading_.aircraft.wings.push_back(std::move(wing));
 }
 
-/// Reads control surfaces: borders in fractions of the span of their component segment, or of another element.
+/// Reads control surfaces. Their borders are given in fractions of the span of their component segment, or of another element.
 void Reader::devices(const Node& node, const Wing& wing, const std::vector<Element>& elements, bool is_turned) {
-  std::vector<double> span{0.0};    // along the mid chord, as the span of our wings is measured
-  std::vector<double> across{0.0};  // the same seen along x, as eta is measured
+  std::vector<double> span{0.0};    // along the mid chord, as WingSpan measures the span
+  std::vector<double> across{0.0};  // the same length seen along x, as CPACS measures eta
   const auto middle = [&](std::size_t i) {
     const WingSection& s = wing.sections[is_turned ? elements.size() - 1 - i : i];
     return 0.5 * (s.loop.front() + s.leading_edge);
@@ -329,7 +329,7 @@ void Reader::devices(const Node& node, const Wing& wing, const std::vector<Eleme
               if (!at) file_.fail(border, std::string("the element '") + tag + "' is missing");
               return at.child(inner) ? file_.child_number(at, inner, 0.0) : file_.child_number(border, tag, 0.0);
             };
-            // One of both ends may be omitted: the border is then parallel to the flow.
+            // The border may be omitted at one of the two ends. The control surface then ends parallel to the flow.
             const char* const other = is_trailing ? "etaTE" : "etaLE";
             const char* hinge_eta = is_trailing ? "etaLE" : "etaTE";
             if (!border.child(hinge_eta) && border.child(other)) hinge_eta = other;

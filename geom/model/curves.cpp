@@ -12,11 +12,11 @@ namespace sterna {
 namespace {
 
 constexpr double k_turn = 2.0 * std::numbers::pi;
-/// Tolerance of a full turn, relative to it: rounding of angles in files.
+/// Relative tolerance of a full turn. It covers the rounding of angles in files.
 constexpr double k_same_turn = 1e-12;
 /// Cosine of the angle between the axes of an ellipse below which they count as orthogonal.
 constexpr double k_right_angle = 1e-9;
-/// Allowed overreach of a view beyond its domain, relative to it: rounding of its own limits.
+/// A view may exceed its domain by this fraction of it, because its own limits are rounded.
 constexpr double k_overreach = 1e-9;
 
 void check_domain(Interval domain, const char* attempted) {

@@ -6,7 +6,7 @@
 
 namespace sterna {
 
-/// origin + t * direction; the direction's length is the speed.
+/// The line origin + t * direction; the direction's length is the speed.
 class LineCurve final : public Curve {
  public:
   /// \throws Error(bad_argument) for a direction or a domain of zero length
@@ -27,8 +27,8 @@ class LineCurve final : public Curve {
 /// \throws Error(bad_argument) when they coincide
 CurvePtr segment(const Point& a, const Point& b);
 
-/// centre + cos t * x + sin t * y: circle or ellipse, or an arc of it; periodic if the domain is a full turn. x and y are the half axes. No exact NURBS form: a
-/// rational form has a different parameter.
+/// The circle or ellipse centre + cos t * x + sin t * y, or an arc of it; periodic if the domain is a full turn. x and y are the half axes. It has no exact
+/// NURBS form, because a rational form has a different parameter.
 class EllipseCurve final : public Curve {
  public:
   /// \throws Error(bad_argument) if x and y are not orthogonal (to 1e-9) or have zero length, or the domain has zero length or is more than a full turn
@@ -51,7 +51,7 @@ class EllipseCurve final : public Curve {
 /// \throws Error(bad_argument) unless radius > 0
 CurvePtr circle(const Frame& frame, double radius, Interval angles);
 
-/// base(scale * t + shift) with its own domain: a part of the base, a rescaled parameter, or the reversed curve (scale < 0).
+/// The curve base(scale * t + shift) with its own domain: a part of the base, a rescaled parameter, or the reversed curve (scale < 0).
 class CurveView final : public Curve {
  public:
   /// \throws Error(bad_argument) for scale 0, or if the image of the domain is not within that of the base (to 1e-9 of its length) and the base is not periodic
@@ -78,7 +78,7 @@ CurvePtr reparametrised(const CurvePtr& curve, Interval domain);
 /// Returns the reversed curve over the same domain.
 CurvePtr reversed(const CurvePtr& curve);
 
-/// origin + t * direction in a parameter plane.
+/// The line origin + t * direction in a parameter plane.
 class ParameterLine final : public ParameterCurve {
  public:
   /// \throws Error(bad_argument) for a direction or a domain of zero length
@@ -98,7 +98,7 @@ class ParameterLine final : public ParameterCurve {
 /// \throws Error(bad_argument) when they coincide
 ParameterCurvePtr parameter_segment(Uv a, Uv b, Interval domain = {0.0, 1.0});
 
-/// centre + cos t * x + sin t * y in a parameter plane: circle or ellipse, or an arc of it. No exact NURBS form, as for EllipseCurve.
+/// The circle or ellipse centre + cos t * x + sin t * y in a parameter plane, or an arc of it. It has no exact NURBS form, as EllipseCurve.
 class ParameterArc final : public ParameterCurve {
  public:
   /// \throws Error(bad_argument) if x and y are parallel or the domain has zero length

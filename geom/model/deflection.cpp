@@ -1,5 +1,5 @@
-// Steps: images on the other half -> checks -> locations along the span where a deflection begins, bends or ends -> rows there -> rotation of every row by the
-// deflections that reach it -> patches where the hinge lines cross the rows' sides.
+// Steps: add images on the other half; check the deflections; find the locations along the span where a deflection begins, bends or ends; make rows there;
+// rotate every row by the deflections that reach it; add patches where the hinge lines cross the rows' sides.
 #include "geom/model/deflection.h"
 
 #include <algorithm>
@@ -15,12 +15,12 @@
 namespace sterna {
 namespace {
 
-/// Limit of the angle; beyond it the bend needs more room than the profile has.
+/// Largest angle of a deflection, radians; beyond it the bend needs more room than the profile has.
 constexpr double k_max_angle = std::numbers::pi / 3.0;
 /// Locations along the span nearer than this fraction of it are identical.
 constexpr double k_same_span = 1e-9;
-/// Hinge points nearer than this fraction of the span to a section, a tip or another surface's hinge point are moved there: files give them with few digits,
-/// and narrow strips between are useless.
+/// Hinge points nearer than this fraction of the span to a section, a tip or another surface's hinge point are moved there. Files give them with few digits,
+/// and a narrow strip between the two is useless.
 constexpr double k_snap = 1e-4;
 /// Hinges of open surfaces nearer to an edge than this fraction of the chord leave no solid.
 constexpr double k_min_open_chord = 0.03;
@@ -80,7 +80,7 @@ HingePlace hinge_place(const Row& row, double fraction) {
   const Vec3 chord = chord_vector(row);
   const auto part = [&](const Point& p) { return dot(p - row[k_nose], chord) / norm2(chord); };
   const auto side = [&](bool is_upper) {
-    for (std::size_t k = 0; k < k_nose; ++k) {  // from the trailing edge to the nose
+    for (std::size_t k = 0; k < k_nose; ++k) {  // k runs from the trailing edge to the nose
       const Point &a = is_upper ? row[k] : row[2 * k_nose - k], &b = is_upper ? row[k + 1] : row[2 * k_nose - k - 1];
       if (part(b) <= fraction && part(a) >= fraction) return part(a) == part(b) ? a : a + (part(a) - fraction) / (part(a) - part(b)) * (b - a);
     }
@@ -134,7 +134,7 @@ void check_overlaps(const std::vector<Deflection>& deflections, const WingSpan& 
       if (!share_an_edge(a, b)) continue;
       Reach p = reach_of(a, span), q = reach_of(b, span);
       for (const auto& [reach, deflection] : {std::pair{&p, &a}, std::pair{&q, &b}})
-        if (is_open(*deflection)) *reach = {reach->from - reach->end_gap, reach->to + reach->end_gap, 0.0};     // a part of the wing must remain between
+        if (is_open(*deflection)) *reach = {reach->from - reach->end_gap, reach->to + reach->end_gap, 0.0};     // wing must remain between two surfaces
         else if (deflection->angle == 0.0) *reach = {reach->from + k_same_span, reach->to - k_same_span, 0.0};  // patches may touch
       if (p.from - p.fade < q.to + q.fade && q.from - q.fade < p.to + p.fade)
         refuse_deflection(ErrorCode::bad_argument, a,
@@ -171,7 +171,7 @@ void turn(Row& row, double s, const Deflection& d, const WingSpan& span) {
   if (share == 0.0) return;
   const double fraction = hinge_chord(d, s);
   const HingePlace hinge = hinge_place(row, fraction);
-  // The hinge line here is the straight segment that contains s.
+  // The hinge line is the straight segment that contains s.
   std::size_t i = 0;
   while (i + 2 < d.surface.hinge.size() && s > d.surface.hinge[i + 1].span) ++i;
   const Vec3 axis = hinge_axis(hinge_point(d.surface.hinge[i], span), hinge_point(d.surface.hinge[i + 1], span));
@@ -189,7 +189,7 @@ void turn(Row& row, double s, const Deflection& d, const WingSpan& span) {
   }
 }
 
-/// Returns the end of the wing before an open slot: its distance from the middle of the hinge is that of the moving part's round nose plus the slot.
+/// Returns the end of the wing before an open slot. Its distance from the middle of the hinge is the radius of the moving part's round nose plus the slot.
 RowCrossing lip_of(const Deflection& d, const Row& row, const RowCrossing& hinge, double slot) {
   const auto [upper, lower] = points_at(row, hinge);
   const std::optional<RowCrossing> lip =
@@ -213,7 +213,7 @@ StraightHinge straight_hinge(const Deflection& d, const WingSpan& span, const Re
 
 /// Returns the fraction of its chord at which the straight hinge crosses a row; the hinge must be near the midpoint between both sides there.
 double straight_chord(const Deflection& d, const StraightHinge& hinge, const Row& row, double slot) {
-  /// Largest distance between the middle of a section and the hinge, relative to the slot; with more the moving part would touch the wing.
+  /// Largest distance between the middle of a section and the hinge, relative to the slot. If it were larger, the moving part would touch the wing.
   constexpr double k_max_bend = 0.5;
   Vec3 normal;
   for (std::size_t i = 0; i + 1 < row.size(); ++i) normal += cross(row[i] - row[0], row[i + 1] - row[0]);
@@ -256,15 +256,15 @@ void snap(std::vector<Deflection>& deflections, const WingSpan& span) {
     }
 }
 
-/// Returns an end of the moving part of an open surface; at a tip there is no gap.
+/// moving_from() and moving_to() return the two ends of the moving part of an open surface. There is no gap at a tip.
 double moving_from(const Reach& reach) { return reach.from > 0.0 ? reach.from + reach.end_gap : 0.0; }
 double moving_to(const Reach& reach) { return reach.to < 1.0 ? reach.to - reach.end_gap : 1.0; }
 
-/// Location of a row of the wing as a fraction of the span, and if a kink is allowed there.
+/// Location of a row of the wing as a fraction of the span. `is_break`: a kink is allowed there.
 struct Stop {
   double at;
   bool is_break;
-  bool is_own;  ///< a section of the wing
+  bool is_own;  ///< the row is a section of the wing
 };
 
 std::vector<Stop> stops_of(const WingSpan& span, const std::vector<Deflection>& deflections) {
@@ -376,8 +376,8 @@ WingPatch patch_of(const Deflection& d, const WingSpan& span, const std::vector<
 
 std::vector<Deflection> with_room_between(const Wing& wing, std::vector<Deflection> deflections) {
   const WingSpan span(wing);
-  constexpr int k_rounds = 8;  // the fairing is a fraction of the chord at the surface's ends, which move
-  // Width beside the ends of a surface: its fairing, or the gap beside a separate part; zero beside a patch.
+  constexpr int k_rounds = 8;  // several rounds are needed, because the fairing is a fraction of the chord at the surface's ends, which move
+  // Width beside the ends of a surface: its fairing, or the gap beside a separate part. It is zero for a patch.
   const auto beside = [](const Deflection& d, const Reach& reach) { return is_open(d) ? reach.end_gap : is_bending(d) ? reach.fade : 0.0; };
   bool is_tight = true;
   for (int round = 0; round < k_rounds && is_tight; ++round) {

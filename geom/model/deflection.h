@@ -8,18 +8,18 @@
 
 namespace sterna {
 
-/// Converts a control surface whose hinge is given from the root (span 0 at the root, 1 at the tip, relative to the length seen along the flow; chord as
-/// usual). The root of a symmetric wing is its centre (the result lies on the right half). For other wings it is the end nearer to y = 0 if they have a mirror
-/// image, else the end with the longer chord. Points may be in any order.
+/// Converts a control surface whose hinge is given from the root: span 0 at the root, 1 at the tip, relative to the length seen along the flow; chord as usual.
+/// The root of a symmetric wing is its centre (the result lies on the right half). For other wings it is the end nearer to y = 0 if they have a mirror image,
+/// else the end with the longer chord. Points may be in any order.
 /// \throws Error(bad_argument) for fewer than 2 points
 ControlSurface from_root(const Wing& wing, ControlSurface surface);
 
 /// Returns the wing with sealed, blended control surfaces and their patches.
-/// Between the hinge points every section is rotated about the hinge line behind the hinge (leading edge: ahead of it; all-moving: completely). The bend
-/// extends over the thickness of the section there, so that upper and lower side stay smooth. Beside the ends the deflection fades to zero over `fairing`,
-/// within the wing's own patch. Points that are not rotated stay unchanged (to the bit in sections of the wing, to rounding in added sections; in wings that
-/// are cubic along the span: to the accuracy of k_cubic_rows rows between two sections). Hinge points within 1e-4 of the span of a section or of another
-/// surface's end are moved there. In symmetric wings `other_side` adds the image on the other half.
+/// Between the hinge points every section is rotated about the hinge line: behind the hinge, for leading edge surfaces ahead of it, for all-moving surfaces
+/// completely. The bend extends over the thickness of the section there, so that upper and lower side stay smooth. Beyond the ends of the hinge the deflection
+/// fades to zero over the length `fairing`; this part belongs to the patch of the wing. Points that are not rotated stay unchanged: to the bit in sections of
+/// the wing, to rounding in added sections, and in wings that are cubic along the span to the accuracy of k_cubic_rows rows between two sections. Hinge points
+/// within 1e-4 of the span of a section or of another surface's end are moved there. In symmetric wings `other_side` adds the image on the other half.
 /// Surfaces with an open gap are separate solids, rotated about the straight line between the ends of their hinge (points between are ignored). The wing's skin
 /// has a cut-out whose cove is an arc about the hinge, `slot` wider than the round (or flat) nose of the moving part. Walls close both ends, `end_gap` apart;
 /// the skin of the part is that of the wing. All-moving surfaces are cut off by walls; a surface that reaches a tip includes the tip. After large rotations
@@ -31,11 +31,11 @@ ControlSurface from_root(const Wing& wing, ControlSurface surface);
 /// section than half of it
 Wing deflected(const Wing& wing, const std::vector<Deflection>& deflections);
 
-/// As the argument, with ends moved inwards where fairings and end gaps of neighbours (or of a surface and a patch) would overlap: each surface by half of the
-/// overlap, a patch not at all. Hinges stay on their lines. `deflected` rejects any remaining overlap.
+/// Returns the deflections with ends moved inwards where fairings and end gaps of neighbours (or of a surface and a patch) would overlap. Each surface is moved
+/// by half of the overlap; patches are not moved. Hinges stay on their lines. `deflected` rejects any remaining overlap.
 std::vector<Deflection> with_room_between(const Wing& wing, std::vector<Deflection> deflections);
 
-/// Returns the deflection's image: named by image_name, with the angle given by `other_side` (none: zero angle) and an unchanged hinge.
+/// Returns the deflection's image. It has the name given by image_name, the angle given by `other_side` (none: zero angle), and an unchanged hinge.
 Deflection image_of(const Deflection& deflection);
 
 /// Number of rows between two sections of a bent cubic wing.

@@ -14,7 +14,7 @@
 namespace sterna {
 namespace {
 
-/// Replaces every surface and curve once: what faces and edges share stays shared.
+/// Replaces every surface and curve once, so that geometry shared by faces and edges stays shared.
 template <class SurfaceMap, class CurveMap>
 void replace_geometry(Model& model, const SurfaceMap& map_surface, const CurveMap& map_curve) {
   std::map<const Surface*, SurfacePtr> surfaces;
@@ -57,7 +57,7 @@ std::vector<double> samples_of(Interval range, std::vector<double> stops) {
   return result;
 }
 
-/// Returns the parameters that a face uses: the box of its outer border, estimated from samples.
+/// Returns the parameters that a face uses. They are the box of its outer border, estimated from samples.
 ParameterBox used_box(const Model& model, const ModelFace& face) {
   if (face.borders.empty() || face.borders.front().empty()) return face.surface->domain();
   constexpr int k_border_samples = 16;

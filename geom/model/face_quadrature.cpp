@@ -1,7 +1,8 @@
-// Green's theorem on the grid of the surface's knots. With any base line u = b, the integral of g over the face is that of (integral of g from b to u) dv along
-// its border. Every piece of the border uses the knot line to its left as its base, so that its inner integral stays within one cell and is smooth. Where the
-// base changes from one piece to the next, at v, the integral over the columns between both bases up to v is added, from a table of whole cells and one partial
-// cell for each column. Steps: pieces of border between crossings with the grid; table; sum over pieces; sum over changes of base; box of samples.
+// Uses Green's theorem on the grid of the surface's knots. With any base line u = b, the integral of g over the face is that of (integral of g from b to u) dv
+// along its border. Every piece of the border uses the knot line to its left as its base, so that its inner integral stays within one cell and is smooth. Where
+// the base changes from one piece to the next, at v, the integral over the columns between both bases up to v is added. It is taken from a table of whole cells
+// and one partial cell for each column. Steps: divide the border into pieces between crossings with the grid; make the table; sum over the pieces; sum over the
+// changes of base; find the box of samples.
 #include "geom/model/face_quadrature.h"
 
 #include <algorithm>
@@ -22,18 +23,18 @@ constexpr std::array<double, 6> k_weights = {0.085662246189585178, 0.18038078652
 /// Gauss-Legendre exact to degree 3, for a first estimate.
 constexpr std::array<double, 2> k_few_nodes = {0.21132486540518713, 0.78867513459481287};
 constexpr std::array<double, 2> k_few_weights = {0.5, 0.5};
-/// Number of pieces of a direction without knots: integrates sines and cosines over a full turn to rounding.
+/// Number of pieces of a direction without knots. With this number, sines and cosines over a full turn are integrated up to rounding.
 constexpr int k_plain_pieces = 12;
 /// Parts of an interval between knots if the pieces are not polynomials of degree 3 or less.
 constexpr int k_parts = 3;
-/// The number of parts is doubled until area and volume agree to this fraction, or the maximum number of refinements is reached: kinks that are not at knots
-/// converge slowly, and each refinement costs four times the previous one. On smooth faces each gains a factor of 4000: agreement to 1e-8 means an error of
-/// 1e-11.
+/// The number of parts is doubled until area and volume agree to this fraction, or the maximum number of refinements is reached. On smooth faces each
+/// refinement reduces the error by a factor of 4000: agreement to 1e-8 means an error of 1e-11. Kinks that are not at knots converge slowly, and each
+/// refinement costs four times the previous one.
 constexpr double k_agreement = 1e-8;
 constexpr int k_tries = 3;
-/// Parts of a piece of border, each of which may cross a knot line once; further crossings only reduce accuracy.
+/// Number of parts of a piece of border. Each part may cross a knot line once; further crossings only reduce accuracy.
 constexpr int k_border_parts = 4;
-/// Bisections in search of a crossing: to rounding.
+/// Bisections in search of a crossing: enough for an accuracy of rounding.
 constexpr int k_halvings = 50;
 
 bool is_simple(int degree, const std::vector<double>& weights) { return degree <= 3 && weights.empty(); }
@@ -102,7 +103,7 @@ class FaceIntegral {
     return {area, dot(x, n) / 3.0, 0.5 * std::abs(n.z), n, area * x, 0.5 * Vec3{x.x * x.x * n.x, x.y * x.y * n.y, x.z * x.z * n.z}};
   }
 
-  /// Returns the parameters at which an edge use is divided, within the range of the edge: the parameter curve may extend beyond it.
+  /// Returns the parameters at which an edge use is divided, within the range of the edge, because the parameter curve may extend beyond that range.
   std::vector<double> steps_of(const EdgeUse& use) const {
     const Interval range = model_.edges[use.edge].range;
     const std::optional<NurbsCurveForm<Uv>> form = use.parameter->exact_nurbs();
@@ -224,7 +225,7 @@ class FaceIntegral {
     add_sample(piece.curve->point(piece.from + 0.5 * length));
   }
 
-  /// Adds the integral between two bases up to v: the previous pieces count from the line of one column, the following ones from that of another.
+  /// Adds the integral between two bases up to v: the previous pieces have the line of column `before` as base, the following ones that of column `after`.
   void change_base(std::size_t before, std::size_t after, double v) {
     for (std::size_t c = std::min(before, after); c < std::max(before, after); ++c) total_.add(before > after ? 1.0 : -1.0, column_up_to(c, v));
   }
@@ -235,7 +236,7 @@ class FaceIntegral {
     high_ = {std::max(high_.x, p.x), std::max(high_.y, p.y), std::max(high_.z, p.z)};
   }
 
-  /// Adds the middles and corners of cells inside the border, row by row: between odd and even crossings.
+  /// Adds the middles and corners of cells inside the border. In each row, these lie between odd and even crossings.
   void add_inner_samples() {
     const std::vector<double> us = refined(u_, 2), vs = refined(v_, 2);
     for (std::size_t j = 1; j + 1 < vs.size(); ++j) {
@@ -256,7 +257,7 @@ class FaceIntegral {
   const Surface& surface_;
   Point about_;
   int refinement_;
-  std::span<const double> nodes_, weights_;  ///< in each direction
+  std::span<const double> nodes_, weights_;  ///< nodes and weights of the quadrature in each direction
   ParameterBox used_;
   std::vector<double> u_, v_;
   std::map<std::size_t, std::vector<FaceSums>> columns_;

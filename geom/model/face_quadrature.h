@@ -24,8 +24,7 @@ struct FaceSums {
 struct FaceQuadrature {
   FaceSums sums;
   Point low, high;     ///< box of the samples inside and on the border
-  double error = 0.0;  ///< m2: change of the area (or of the volume divided by the largest distance) by the last refinement: an upper bound if the face is
-                       ///< smooth
+  double error = 0.0;  ///< m2: last change of the area (or of the volume divided by the largest distance); exceeds the error of a smooth face
 };
 /// Integrates over a face. \pre the face has a border
 FaceQuadrature integrate_face(const Model& model, FaceId face, const Point& about);

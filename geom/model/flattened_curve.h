@@ -1,11 +1,11 @@
-// A curve moved into a plane of constant x, y or z: the symmetry boundary of a half model, which lies exactly in its plane.
+// A curve moved into a plane of constant x, y or z. Used for the symmetry boundary of a half model, which must lie exactly in its plane.
 #pragma once
 
 #include "geom/model/curve.h"
 
 namespace sterna {
 
-/// C(t) with one coordinate set to a value: returns exactly that value for any t.
+/// The curve C(t) with one coordinate set to a value; it returns exactly that value for any t.
 class FlattenedCurve final : public Curve {
  public:
   FlattenedCurve(CurvePtr base, std::size_t axis, double at) : base_(std::move(base)), axis_(axis), at_(at) {}

@@ -8,7 +8,7 @@
 namespace sterna {
 namespace {
 
-/// Relative tolerance of lengths and angles of a similarity: rounding of products of a few maps.
+/// Relative tolerance of lengths and angles of a similarity. It covers the rounding of products of a few maps.
 constexpr double k_similar = 1e-12;
 
 Vec3 direction_of(const Vec3& v, const char* attempted) {

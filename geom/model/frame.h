@@ -16,10 +16,11 @@ struct Frame {
   Point global(const Vec3& p) const { return origin + p.x * x + p.y * y + p.z * z; }
 };
 
-/// Returns a right-handed frame with the given z axis (any length); x as close to `x_hint` as possible, in any direction if `x_hint` is empty or parallel to z.
+/// Returns a right-handed frame with the given z axis (any length). Its x axis is as close to `x_hint` as possible; it has any direction if `x_hint` is empty
+/// or parallel to z.
 Frame frame_along(const Point& origin, const Vec3& z, const Vec3& x_hint = {});
 
-/// p -> p.x * x + p.y * y + p.z * z + shift. Columns, not rows.
+/// The affine map p -> p.x * x + p.y * y + p.z * z + shift. x, y and z are columns of the matrix, not rows.
 struct Transform {
   Vec3 x{1.0, 0.0, 0.0};
   Vec3 y{0.0, 1.0, 0.0};

@@ -9,10 +9,10 @@
 namespace sterna {
 namespace {
 
-/// Buckets of the span table per span: spans of uniform knots are found without any comparison.
+/// Number of buckets of the span table per span: the spans of uniform knots are found without any comparison.
 constexpr std::size_t k_buckets_per_span = 2;
 constexpr std::size_t k_max_buckets = 1 << 16;
-/// Fraction of a bucket: rounding may put a parameter into the neighbouring bucket.
+/// Tolerance as a fraction of a bucket: rounding may put a parameter into the neighbouring bucket.
 constexpr double k_bucket_margin = 1e-6;
 
 void check_knots(int degree, const std::vector<double>& knots, std::string_view attempted) {
@@ -56,8 +56,8 @@ KnotBasis::KnotBasis(int degree, std::vector<double> knots, bool is_periodic, st
     span.inverse_length = 1.0 / (knots_[i + 1] - knots_[i]);
     span.first = i - p;
     if (degree_ <= 3) {
-      // Taylor series at the start of the span: functions and derivatives from the recurrence. The third derivative of a cubic is constant, so it follows from
-      // the second derivative at both ends.
+      // Makes the Taylor series at the start of the span. The recurrence gives the functions and their derivatives. The third derivative of a cubic is
+      // constant, so it follows from the second derivative at both ends.
       BasisValues at_start, at_end;
       recurrence(knots_[i], span, true, at_start);
       recurrence(knots_[i + 1], span, true, at_end);

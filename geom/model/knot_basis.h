@@ -50,7 +50,7 @@ class KnotBasis {
 
  private:
   struct Span {
-    Lanes4 coefficient[4];  ///< lane k: function first + k; power of (t - start) / length
+    Lanes4 coefficient[4];  ///< lane k holds the coefficients of function first + k; coefficient[i] belongs to the power i of (t - start) / length
     double start = 0.0;
     double inverse_length = 1.0;
     std::size_t first = 0;

@@ -1,5 +1,5 @@
-// Composition of a polynomial spline surface with a straight line of its parameter plane. Between the crossings of knot lines it is a polynomial whose degree
-// is the sum of both degrees, and at a crossing it is as smooth as the surface. It therefore lies in a spline space with known knots, and interpolation
+// Composes a polynomial spline surface with a straight line of its parameter plane. Between the crossings of knot lines the composition is a polynomial whose
+// degree is the sum of both degrees, and at a crossing it is as smooth as the surface. It therefore lies in a spline space with known knots, and interpolation
 // reproduces it exactly.
 #include <Eigen/Dense>
 
@@ -14,7 +14,7 @@
 namespace sterna {
 namespace {
 
-/// Crossings of the line nearer than this fraction of it to each other or to its ends are merged: rounding of parameters.
+/// Crossings of the line nearer to each other or to its ends than this fraction of the line are merged: they differ by rounding of parameters.
 constexpr double k_same_crossing = 1e-9;
 
 /// Location on the line and the multiplicity required of the composed curve's knot there.
@@ -54,7 +54,7 @@ CurvePtr line_on_surface(const NurbsSurfaceForm& form, Uv from, Uv to) {
   }
   line.knots.insert(line.knots.end(), static_cast<std::size_t>(line.degree) + 1, 1.0);
 
-  // Interpolation at the Greville abscissae: one for each function, and the system is regular.
+  // Interpolation at the Greville abscissae: there is one for each function, and the system is regular.
   const KnotBasis basis(line.degree, line.knots, false, "following a line on a surface");
   const std::size_t n = basis.n_functions();
   const NurbsSurface surface(form);

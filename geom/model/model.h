@@ -1,5 +1,5 @@
-// Geometry model: named faces on exact surfaces, with edges shared between them. Built by components, readers and booleans; used by the surface mesher and the
-// writers.
+// Geometry model: named faces on exact surfaces, with edges shared between them. Models are built by components, readers and booleans, and used by the surface
+// mesher and the writers.
 #pragma once
 
 #include <array>

@@ -15,9 +15,9 @@
 namespace sterna {
 namespace {
 
-/// Allowed distance of an edge from its surface, relative to the size, if both come from the same numbers: rounding of evaluators.
+/// Largest distance of an edge from its surface, relative to the size, if both come from the same numbers. It covers the rounding of evaluators.
 constexpr double k_off_surface = 1e-9;
-/// Allowed distance of a planar border from its plane, relative to its size: rounding of rotations.
+/// Allowed distance of a planar border from its plane, relative to its size. It covers the rounding of rotations.
 constexpr double k_off_plane = 1e-9;
 
 [[noreturn]] void refuse_model(ErrorCode code, const std::string& problem, std::vector<ErrorPlace> places = {}) {
@@ -26,7 +26,7 @@ constexpr double k_off_plane = 1e-9;
 
 Point at_part(const ModelEdge& edge, double part) { return edge.curve->point(edge.range.from + part * edge.range.length()); }
 
-/// Evaluates the curve with one row's poles and weights: one pole of the parameter line.
+/// Evaluates the curve given by one row of poles and weights; its point is one pole of the parameter line.
 struct BuilderRow {
   std::vector<Point> poles;
   std::vector<double> weights;
@@ -42,7 +42,7 @@ CurvePtr curve_through_rows(const std::vector<BuilderRow>& rows, int row_degree,
       line.poles.push_back(NurbsCurve({row_degree, row_knots, row.poles, {}}).point(at));
       continue;
     }
-    // Homogeneous coordinates: the weight is a separate spline.
+    // Homogeneous coordinates are used, with the weight as a separate spline.
     std::vector<Point> weights, weighted;
     for (std::size_t i = 0; i < row.poles.size(); ++i) {
       weights.push_back({row.weights[i], 0.0, 0.0});
@@ -211,8 +211,9 @@ Model ModelBuilder::closed_solid(const std::string& name) {
 
 namespace {
 
-/// Smallest volume, as a fraction of area times reach, whose sign can be determined from few samples. Their largest error among the aircraft of the tests is
-/// 8e-4 (a pylon with kinks, 1e-5 mostly); bodies have some hundredths, slender wings 7e-3. Smaller volumes are integrated to rounding.
+/// Smallest volume, as a fraction of area times reach, whose sign can be determined from few samples. The largest error of this fraction among the aircraft of
+/// the tests is 8e-4, for a pylon with kinks; most errors are 1e-5. Bodies have fractions of some hundredths, slender wings 7e-3. Smaller volumes are
+/// integrated to rounding.
 constexpr double k_plain_share = 5e-3;
 
 /// Returns the volume of a solid with consistently oriented faces; the sign is correct, the value is accurate to rounding only if the sign is in doubt.
@@ -266,7 +267,7 @@ void orient_outwards(Model& model, SolidId solid_id) {
         const EdgeUsePlace& other = pair[0].face == f ? pair[1] : pair[0];
         ModelFace& neighbour = model.faces[other.face];
         const bool wanted =
-            u.is_reversed != model.faces[f].is_reversed ? use(other).is_reversed : !use(other).is_reversed;  // so that the effective directions differ
+            u.is_reversed != model.faces[f].is_reversed ? use(other).is_reversed : !use(other).is_reversed;  // the effective directions must differ
         if (!is_done[other.face]) {
           neighbour.is_reversed = wanted;
           is_done[other.face] = 1;

@@ -23,9 +23,9 @@ struct FaceMeasures {
   double error = 0.0;        ///< m2: change by the last refinement of the quadrature
   MeasureBox box;            ///< box of samples of face and border: smaller than the face by the sagitta between samples, about 1e-3 of a curved face's size
 };
-/// Computes Gauss quadrature over the knots of the surface within the face's border, for any kind of surface. It is refined until it changes by less than 1e-8;
-/// the error is then about 1e-11. If kinks that are not at knots prevent this, `error` holds the accuracy reached. Seams, poles and parameters beyond a period
-/// are as in Model; the surface outside the border has no influence.
+/// Computes the measures by Gauss quadrature over the knots of the surface within the face's border, for any kind of surface. The quadrature is refined until
+/// it changes by less than 1e-8; the error is then about 1e-11. If kinks that are not at knots prevent this, `error` holds the accuracy reached. Seams, poles
+/// and parameters beyond a period are as in Model; the surface outside the border has no influence.
 FaceMeasures face_measures(const Model& model, FaceId face, const Point& about = {});
 
 struct SolidMeasures {
@@ -39,7 +39,7 @@ SolidMeasures solid_measures(const Model& model, SolidId solid);
 struct BodyMeasures {
   std::string name;
   std::size_t n_faces = 0;
-  double area = 0.0;    ///< wetted, m2
+  double area = 0.0;    ///< wetted area, m2
   double volume = 0.0;  ///< m3; 0 if the faces are not closed
   bool has_volume = false;
   Point centre;  ///< centroid of the volume, else of the area

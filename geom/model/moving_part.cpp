@@ -1,4 +1,4 @@
-// Steps: locations along the span where the shape changes -> cross sections there -> faces between them -> nose -> end walls.
+// Steps: find the locations along the span where the shape changes; make cross sections there; add faces between them, the nose, and the end walls.
 #include "geom/model/moving_part.h"
 
 #include <algorithm>
@@ -11,7 +11,7 @@
 namespace sterna {
 namespace {
 
-/// Cross section of the part: its pieces of both sides, from the wing's trailing edge towards its leading edge.
+/// Cross section of the part. It consists of pieces of both sides of the wing, from the trailing edge towards the leading edge.
 struct PartSection {
   double place = 0.0;
   WingPatch::Place hinge;

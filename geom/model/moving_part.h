@@ -8,7 +8,7 @@
 
 namespace sterna {
 
-/// Builds the flap (leading edge flap) of a patch with a slot: its part of the wing's skin, a nose, and walls at both ends; not yet moved.
+/// Builds the trailing or leading edge flap of a patch with a slot: its part of the wing's skin, a nose, and walls at both ends. The part is not yet moved.
 Model make_moving_part(const Wing& wing, const WingPatch& patch, const std::vector<WingSides>& panels, bool is_blunt);
 
 }  // namespace sterna

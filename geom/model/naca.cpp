@@ -17,7 +17,7 @@ struct Height {
   double y = 0.0;
   double slope = 0.0;
 };
-/// Thickness profile: stations from the leading edge, half thickness at each.
+/// Thickness profile: stations from the leading edge, and the half thickness at each station.
 struct Profile {
   std::vector<double> x, y;
 };
@@ -43,16 +43,18 @@ Profile four_digit_thickness(double t, int n) {
   return profile;
 }
 
-/// Modified thickness: nose radius index (6: as the 4-digit series), location of the largest thickness. TM-4741, "modified four-digit".
+/// Returns the modified thickness with a nose radius index (6: as in the 4-digit series) and a location of the largest thickness. TM-4741, "modified
+/// four-digit".
 Profile modified_thickness(double t, int nose_index, double m, int n) {
-  // d1: slope at the trailing edge of a section 0.2 thick, by location of the largest thickness; the curve aft is d0 + d1 s + d2 s^2 + d3 s^3, s = 1 - x.
+  // d1 is the slope at the trailing edge of a section 0.2 thick, by location of the largest thickness. The curve aft of that location is d0 + d1 s + d2 s^2 +
+  // d3 s^3, s = 1 - x.
   const double d1 = m < 0.25 ? 0.200 : m < 0.35 ? 0.234 : m < 0.45 ? 0.315 : m < 0.55 ? 0.465 : 0.700;
   const double s = 1.0 - m, d0 = 0.002;
   const double d2 = (0.294 - 2.0 * s * d1) / (s * s), d3 = (s * d1 - 0.196) / (s * s * s);
-  // Ahead a0 sqrt x + a1 x + a2 x^2 + a3 x^3: the nose radius, then height 0.1, slope 0 and the curvature of the aft part at m.
+  // The curve ahead of m is a0 sqrt x + a1 x + a2 x^2 + a3 x^3. It has the nose radius, and at m the height 0.1, slope 0 and the curvature of the aft part.
   const double a0 = 0.296904 * (nose_index <= 8 ? nose_index / 6.0 : 10.3933 / 6.0);
   const double r0 = 0.1 - a0 * std::sqrt(m), r1 = -0.5 * a0 / std::sqrt(m), r2 = 2.0 * d2 + 6.0 * d3 * s + 0.25 * a0 / (m * std::sqrt(m));
-  // a1 m + a2 m^2 + a3 m^3 = r0, a1 + 2 a2 m + 3 a3 m^2 = r1, 2 a2 + 6 a3 m = r2.
+  // Solve a1 m + a2 m^2 + a3 m^3 = r0, a1 + 2 a2 m + 3 a3 m^2 = r1, 2 a2 + 6 a3 m = r2.
   const double a3 = (r0 - r1 * m + 0.5 * r2 * m * m) / (m * m * m);
   const double a2 = 0.5 * r2 - 3.0 * a3 * m;
   const double a1 = r1 - 2.0 * a2 * m - 3.0 * a3 * m * m;
@@ -72,7 +74,7 @@ double at_angle(const std::array<double, 21>& value, const std::array<double, 21
   return value[i] * q * q * (1.0 + 2.0 * s) + value[i + 1] * s * s * (3.0 - 2.0 * s) + h * s * q * (slope[i] * q - slope[i + 1] * s);
 }
 
-/// Maps with epsilon and psi scaled by `scale`: circle -> near circle -> profile (Report 824, p. 263; TM X-3069).
+/// Maps a circle to a near circle and then to the profile, with epsilon and psi multiplied by `scale` (Report 824, p. 263; TM X-3069).
 Profile mapped_profile(const airfoil_parts::MappingTable& table, double scale, int n) {
   const auto zeta = [&](double phi) {
     const double psi = scale * at_angle(table.psi, table.psi_slope, phi), epsilon = scale * at_angle(table.epsilon, table.epsilon_slope, phi);
@@ -104,7 +106,7 @@ Profile six_series_thickness(std::string_view designation, const std::string& fa
       std::find_if(airfoil_parts::k_mapping_tables.begin(), airfoil_parts::k_mapping_tables.end(), [&](const auto& e) { return e.family == family; });
   if (table == airfoil_parts::k_mapping_tables.end())
     refuse_designation(designation, "unknown family " + family + "; known families are 63, 64, 65, 66, 67, 63A, 64A, 65A");
-  // Thickness grows with the scale: bisection.
+  // Thickness grows with the scale, so bisection finds the scale.
   double low = 0.0, high = 4.0;
   for (int k = 0; k < 60; ++k) {
     const double middle = 0.5 * (low + high);
@@ -141,7 +143,7 @@ Height four_digit_mean(double m, double p, double x) {
 struct FiveDigitLine {
   double m, k1, k2_by_k1;
 };
-/// By location of the largest camber, P = 1 .. 5 (p = P / 20); k1 for the lift coefficient 0.3. TM-4741; NACA Report 610.
+/// Parameters by location of the largest camber, P = 1 .. 5 (p = P / 20); k1 is for the lift coefficient 0.3. TM-4741; NACA Report 610.
 constexpr std::array<FiveDigitLine, 5> k_five_digit = {
     {{0.0580, 361.400, 0.0}, {0.1260, 51.640, 0.0}, {0.2025, 15.957, 0.0}, {0.2900, 6.643, 0.0}, {0.3910, 3.230, 0.0}}};
 constexpr std::array<FiveDigitLine, 5> k_five_digit_reflexed = {
@@ -157,8 +159,8 @@ Height five_digit_mean(const FiveDigitLine& line, bool is_reflexed, double lift,
   return {k * (factor * d * d * d - lift_off * x - m * m * m * x + m * m * m), k * (3.0 * factor * d * d - lift_off - m * m * m)};
 }
 
-/// Mean line of uniform load from the leading edge to x = a, then decreasing to zero (Report 824, eq. 4.26); the slope at the nose is infinite and evaluated at
-/// x = 0.005.
+/// Returns the height at x of the mean line whose load is uniform from the leading edge to x = a and then decreases to zero (Report 824, eq. 4.26). Its slope
+/// at the nose is infinite and is therefore evaluated at x = 0.005.
 Height uniform_load_mean(double a, double lift, double x) {
   constexpr double k_nose = 0.005;
   const auto log_or_zero = [](double t) { return t > 0.0 ? std::log(t) : 0.0; };
@@ -204,7 +206,7 @@ Airfoil combined(const std::string& name, const Profile& profile, const MeanLine
   return airfoil_parts::make(name, points);
 }
 
-/// Designation in lower case, without "naca", blanks and the subscripts in brackets or after a comma; the mean line's "a=" is separate.
+/// A designation in lower case, without "naca", blanks and the subscripts in brackets or after a comma. The mean line's "a=" is separate.
 struct Designation {
   std::string digits;
   double a = 1.0;
@@ -247,7 +249,7 @@ Airfoil naca_airfoil(std::string_view designation, int n_side) {
     const double lift = digit(match[1], 0) / 10.0;
     return combined(name, modified_thickness(checked_thickness(percent(match[2])), 4, 0.5, n_side), [&](double x) { return uniform_load_mean(1.0, lift, x); });
   }
-  // Subscripts ("642-015", "64(2)-015", "64,2-015") give the width of the low-drag range, not the shape.
+  // Subscripts ("642-015", "64(2)-015", "64,2-015") give the width of the low-drag range and do not affect the shape.
   if (is("(6[3-7])(a?)\\d?(a?)-(\\d)(\\d\\d)(a?)") || is("(6[3-7])(a?)\\d?(a?)(\\d)(\\d\\d)(a?)")) {
     const bool is_a = match[2].length() + match[3].length() + match[6].length() > 0;
     const double lift = digit(match[4], 0) / 10.0;

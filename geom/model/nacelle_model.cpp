@@ -1,5 +1,5 @@
-// Nacelles of cowls: profiles at angles about the axis -> rows of points around the axis -> surfaces closed around the axis, in two halves, with edges along
-// the lips and the trailing edges.
+// Builds nacelles of cowls. Steps: make profiles at angles about the axis; make rows of points around the axis; spline surfaces closed around the axis, in two
+// halves, with edges along the lips and the trailing edges.
 #include <algorithm>
 #include <cmath>
 #include <numbers>
@@ -40,7 +40,7 @@ class CowlBuilder {
   Model center_body(const std::vector<Uv>& profile);
 
  private:
-  /// Returns points (profile, angle) from x and radius at each angle; angle 0 at the top, right-hand rule about x.
+  /// Returns a grid of points (profile, angle) from x and radius at each angle. Angle 0 is at the top; the sense is right-handed about x.
   PointGrid turned(const std::vector<std::vector<Uv>>& profiles) const;
   Hoop hoop(const NurbsSurfaceForm& form, double u);
   void halves(const NurbsSurfaceForm& form, const Hoop& from, const Hoop& to, FaceRole role);
@@ -81,7 +81,7 @@ void CowlBuilder::halves(const NurbsSurfaceForm& form, const Hoop& from, const H
   builder_.patch(surface, {u, {0.5, 1.0}}, {bottom, to.halves[1], top, from.halves[1]}, role, name_);
 }
 
-/// Returns the profile at any angle: sections splined around the circle, point by point in x and radius.
+/// Returns the profiles at all angles: sections are splined around the circle, point by point in x and radius.
 std::vector<std::vector<Uv>> profiles_of(const Cowl& cowl) {
   std::vector<std::vector<Uv>> rows;
   for (const CowlSection& section : cowl.sections) {
@@ -101,7 +101,7 @@ std::vector<std::vector<Uv>> profiles_of(const Cowl& cowl) {
     std::vector<Point> values;
     for (const std::vector<Uv>& row : rows) values.push_back({row[i].u, row[i].v, 0.0});
     values.push_back(values.front());
-    if (rows.size() == 2) {  // too few for a closed spline: cosine interpolation between both
+    if (rows.size() == 2) {  // two rows are too few for a closed spline: interpolate between them by a cosine
       for (std::size_t j = 0; j < k_cowl_angles; ++j) {
         const double part = 0.5 - 0.5 * std::cos((turn * static_cast<double>(j) / k_cowl_angles - o.at[0]) / (o.at[1] - o.at[0]) * std::numbers::pi);
         const Point p = values[0] + part * (values[1] - values[0]);

@@ -27,8 +27,8 @@ struct Interval {
   friend constexpr bool operator==(const Interval&, const Interval&) = default;
 };
 
-/// Clamped, non-periodic: knots.size() == poles.size() + degree + 1, ascending, the first and the last degree + 1 times; domain is
-/// [knots[degree], knots[poles.size()]]. `P` is Point (curve in space) or Uv (curve in a parameter plane).
+/// NURBS curve with clamped, non-periodic knots. There are poles.size() + degree + 1 knots. They ascend, and the first and the last one occur degree + 1 times.
+/// The domain is [knots[degree], knots[poles.size()]]. `P` is Point (curve in space) or Uv (curve in a parameter plane).
 template <class P>
 struct NurbsCurveForm {
   int degree = 1;
@@ -37,7 +37,7 @@ struct NurbsCurveForm {
   std::vector<double> weights;  ///< empty: polynomial; otherwise one positive weight per pole
 };
 
-/// Poles in rows: pole(i, j) = poles[i * n_v + j], i along u. Knots of each direction as in NurbsCurveForm.
+/// NURBS surface. Poles are in rows: pole(i, j) = poles[i * n_v + j], i along u. The knots of each direction are as in NurbsCurveForm.
 struct NurbsSurfaceForm {
   int degree_u = 1;
   int degree_v = 1;

@@ -14,7 +14,7 @@ constexpr std::string_view k_nurbs_surface_attempt = "making a NURBS surface";
 
 Point position(const Value& v) { return {v[0], v[1], v[2]}; }
 
-/// Data that a surface point depends on: basis functions of both directions, their number, and the first of their poles.
+/// Data of a surface point: the basis functions of both directions, their number, and the first of their poles.
 struct Support {
   BasisValues bu, bv;
   std::size_t orders_u, orders_v;

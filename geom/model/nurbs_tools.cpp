@@ -13,10 +13,10 @@ namespace sterna {
 namespace {
 
 using Value = Lanes4::Value;
-/// Fraction of the domain: knots of two splines nearer than this differ only by rounding.
+/// Knots of two splines that are nearer than this fraction of the domain differ only by rounding.
 constexpr double k_same_knot = 1e-14;
 
-/// Blossom of the piece on [knots[span], knots[span + 1]] at `degree` arguments; pole i is poles[i * stride].
+/// Returns the blossom of the piece on [knots[span], knots[span + 1]] at `degree` arguments; pole i is poles[i * stride].
 Value blossom(int degree, const std::vector<double>& knots, const Lanes4* poles, std::size_t stride, std::size_t span, std::span<const double> arguments) {
   const auto p = static_cast<std::size_t>(degree);
   Lanes4 d[k_max_degree + 1];
@@ -56,7 +56,7 @@ void convert_row(int old_degree, const std::vector<double>& old_knots, const Lan
       poles[j * stride].value = blossom(degree, old_knots, old_poles, old_stride, span, arguments);
       continue;
     }
-    // Mean over the omitted argument.
+    // Take the mean over the omitted argument.
     Value sum{};
     for (std::size_t out = 0; out < q; ++out) {
       std::vector<double> some = arguments;

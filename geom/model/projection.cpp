@@ -1,6 +1,6 @@
-// Newton's method on half the squared distance f(u, v) = |S(u, v) - p|^2 / 2 in a box. Variables at a limit towards which the gradient points are held; an
-// indefinite Hessian gets the absolute values of its eigenvalues; steps are halved until f decreases. Cells of samples, spaced by length and turning of the
-// surface, give lower bounds of the distance and start values: branch and bound.
+// Minimises half the squared distance f(u, v) = |S(u, v) - p|^2 / 2 in a box by Newton's method. Variables at a limit towards which the gradient points are
+// held. The eigenvalues of an indefinite Hessian are replaced by their absolute values. Steps are halved until f decreases. Cells of samples, spaced by length
+// and turning of the surface, give start values and lower bounds of the distance for branch and bound.
 #include "geom/model/projection.h"
 
 #include <algorithm>
@@ -18,32 +18,32 @@
 namespace sterna {
 namespace {
 
-/// A Newton step shorter than this fraction of the extent leaves an error of about its square: it is the last one.
+/// A Newton step shorter than this fraction of the extent is the last one: the remaining error is about the square of the step.
 constexpr double k_last_step = 1e-7;
-/// Fraction of the extent: a step this short is rounding.
+/// A step shorter than this fraction of the extent is rounding.
 constexpr double k_no_step = 1e-15;
 constexpr int k_max_steps = 60;
 constexpr int k_max_halvings = 30;
-/// Longest step, fraction of the box: the second derivatives are not valid farther away.
+/// Longest step as a fraction of the box: farther away the second derivatives are not valid.
 constexpr double k_longest_step = 0.3;
 /// Determinant of the Hessian relative to the product of its diagonal below which it counts as singular.
 constexpr double k_singular = 1e-10;
 /// Smallest trusted eigenvalue of the Hessian per metre squared; a flat surface has 1.
 constexpr double k_flattest = 1e-8;
-/// Fraction of the mean speed: a lower speed indicates a pole.
+/// A speed lower than this fraction of the mean speed indicates a pole.
 constexpr double k_pole_speed = 1e-7;
-/// Turning of the surface between stations, radians, and the number of intervals for the length alone.
+/// Largest turning of the surface between stations, radians, and the number of intervals for the length alone.
 constexpr double k_turning = 0.35;
 constexpr int k_intervals_by_length = 8;
 constexpr int k_max_intervals = 128;
-/// Fine samples along each line, and lines in each direction, from which stations are computed.
+/// Number of fine samples along each line, and of lines in each direction, from which stations are computed.
 constexpr int k_fine_samples = 256;
 constexpr int k_fine_lines = 5;
-/// Fraction of a cell's size by which the surface may exceed its samples (3 x 3 samples, turning below 0.35: the sag is below 0.1).
+/// Fraction of a cell's size by which the surface may leave its samples. (With 3 x 3 samples and a turning below 0.35 the sag is below 0.1.)
 constexpr double k_cell_margin = 0.15;
 /// Number of directions tried at a pole.
 constexpr int k_pole_directions = 12;
-/// Golden section steps for the best direction: to 1e-8 of the spacing of directions.
+/// Golden section steps for the best direction, which give 1e-8 of the spacing of directions.
 constexpr int k_pole_sections = 40;
 constexpr double k_golden = 0.6180339887498949;
 
@@ -61,7 +61,7 @@ double inside(double t, Interval range, bool wraps) {
 
 bool is_whole_period(Interval range, Interval domain, bool is_periodic) { return is_periodic && range.length() >= domain.length() * (1.0 - 1e-12); }
 
-/// Returns the accumulated fraction of length and turning of polylines over `fine`; the largest of all lines in each interval.
+/// Returns the accumulated fraction of length and turning of polylines over `fine`. In each interval the largest increment of all lines counts.
 std::vector<double> stations_of(const std::vector<double>& fine, const std::vector<std::vector<Point>>& lines) {
   std::vector<double> density(fine.size() - 1, 0.0);
   for (const std::vector<Point>& line : lines) {
@@ -157,7 +157,8 @@ Cells cells_of(const Surface& surface, const std::vector<double>& stations_u, co
   return cells;
 }
 
-/// Replaces the eigenvalues of the Hessian [a b; b c], in metres of both directions, by their absolute values: steps then leave saddles and maxima downhill.
+/// Replaces the eigenvalues of the Hessian [a b; b c] by their absolute values, so that steps leave saddles and maxima downhill. The Hessian is scaled to
+/// metres in both directions.
 void make_definite(double speed_u, double speed_v, double& a, double& b, double& c) {
   const double hu = speed_u > 0.0 ? speed_u : 1.0, hv = speed_v > 0.0 ? speed_v : 1.0;
   const double p = a / (hu * hu), q = b / (hu * hv), r = c / (hv * hv);
@@ -234,7 +235,7 @@ SurfaceFoot SurfaceProjector::descend(const Point& p, Uv at) const {
       Uv last{at.u + su, at.v + sv};
       move_inside(last);
       const Point q = surface_->point(last);
-      // Rounding of f hides gains below its own size: such a last step is accepted.
+      // Rounding of f hides gains below its own size, so this last step is accepted.
       if (distance(q, p) <= norm(r) * (1.0 + 1e-15) + k_no_step * extent_) return {last, q, distance(q, p)};
     }
     const double f = norm2(r);
@@ -312,7 +313,7 @@ SurfaceFoot SurfaceProjector::nearest(const Point& p) const {
     const std::size_t i = cell / n_v, j = cell % n_v;
     return Uv{0.5 * (stations_u_[i] + stations_u_[i + 1]), 0.5 * (stations_v_[j] + stations_v_[j + 1])};
   };
-  // Entries by lower bound; nodes of the tree and, after them, cells. Ties are resolved by number, so that the order is unique.
+  // Entries are ordered by lower bound. They are nodes of the tree or, numbered after them, cells. Ties are resolved by number, so that the order is unique.
   struct Entry {
     double bound;
     std::uint32_t index;
@@ -347,7 +348,7 @@ SurfaceFoot SurfaceProjector::nearest(const Point& p) const {
       }
     }
   }
-  // Nearest samples first. A cell beside an earlier one leads to the same base point: only local minima of the samples are start values.
+  // The nearest samples come first. A cell beside an earlier one leads to the same base point, so only local minima of the samples are start values.
   std::sort(candidates.begin(), candidates.end(),
             [](const Candidate& a, const Candidate& b) { return std::tie(a.to_middle, a.cell) < std::tie(b.to_middle, b.cell); });
   const std::size_t n_u = stations_u_.size() - 1;

@@ -20,15 +20,15 @@ struct SurfaceFoot {
 /// Projects points onto one surface, within a box of its parameters; constructed once, usable from many threads.
 class SurfaceProjector {
  public:
-  /// `box` within the domain; boxes of a full period may be crossed at the seam. Samples the surface: about 1 ms.
+  /// `box` must lie within the domain; a box of a full period may be crossed at the seam. The constructor samples the surface, which takes about 1 ms.
   /// \throws Error(bad_argument) for a box of zero size
   explicit SurfaceProjector(SurfacePtr surface);
   SurfaceProjector(SurfacePtr surface, const ParameterBox& box);
 
-  /// Finds the local minimum of the distance reached from `seed` (moved into the box), never farther away than the seed's point. Base points on the border are
-  /// found as such; at poles all directions are tried. Points are accurate to about 1e-12 of the surface's extent.
+  /// Finds the local minimum of the distance reached from `seed` (moved into the box). The result is never farther away than the seed's point. Base points on
+  /// the border are found; at poles all directions are tried. Points are accurate to about 1e-12 of the surface's extent.
   SurfaceFoot seeded(const Point& p, Uv seed) const;
-  /// Finds the nearest point: tests every cell of samples that could contain a nearer point. Cells bound the surface by their samples with a margin, so a
+  /// Finds the nearest point by testing every cell of samples that could contain a nearer point. The bound of a cell is that of its samples plus a margin, so a
   /// feature much thinner than a cell may be missed.
   SurfaceFoot nearest(const Point& p) const;
   /// Computes feet[i] = seeded(points[i], seeds[i]), or nearest(points[i]) if `seeds` is empty. Parallel.
@@ -76,7 +76,7 @@ class CurveProjector {
   double extent_ = 0.0;
   std::vector<double> stations_;
   std::vector<Point> points_;
-  std::vector<double> reach_;  ///< per interval: how far the curve may leave the sphere over its ends
+  std::vector<double> reach_;  ///< per interval: largest distance by which the curve may leave the sphere over the interval's ends
 };
 
 }  // namespace sterna

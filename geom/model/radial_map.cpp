@@ -1,5 +1,5 @@
-// Steps: merge repeated points -> scale coordinates to unit size -> solve the interpolation system (with the linear part as side conditions, in the directions
-// that the points span) -> verify that the points get their displacements.
+// Steps: merge repeated points; scale coordinates to unit size; solve the interpolation system (with the linear part as side conditions, in the directions that
+// the points span); verify that the points get their displacements.
 #include "geom/model/radial_map.h"
 
 #include <Eigen/Dense>
@@ -15,13 +15,13 @@ namespace sterna {
 namespace {
 
 constexpr std::string_view k_radial_map_attempt = "spreading displacements over space";
-/// The system is dense: 6000 points take 0.3 GB and about one minute.
+/// Largest number of points. The system is dense: 6000 points take 0.3 GB and about one minute.
 constexpr std::size_t k_max_points = 6000;
-/// Fraction of the points' extent: closer points are one point.
+/// Points closer than this fraction of the points' extent are one point.
 constexpr double k_same_place = 1e-9;
-/// Fraction of the largest displacement: tolerance between repeated points, and of the solution at its points.
+/// Tolerance between displacements of repeated points, and of the solution at its points, as a fraction of the largest displacement.
 constexpr double k_same_shift = 1e-6;
-/// Fraction of the largest extent: directions in which the points extend less are not spanned by them.
+/// The points do not span a direction in which they extend by less than this fraction of their largest extent.
 constexpr double k_flat = 1e-6;
 /// Scaled distance below which the logarithm of the second derivative of a thin plate is cut off.
 constexpr double k_core = 1e-9;
@@ -34,7 +34,7 @@ constexpr double k_core = 1e-9;
                .hint = std::move(hint)});
 }
 
-/// phi, phi' / r, and (phi'' - phi' / r) / r^2 of the scaled distance.
+/// phi, phi' / r, and (phi'' - phi' / r) / r^2 as functions of the scaled distance.
 struct Kernel {
   double value, slope, bend;
 };

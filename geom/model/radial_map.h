@@ -51,8 +51,8 @@ struct Schema<RadialMapOptions> {
 /// logarithm of the distance at the data points and are cut off there. Based on: Wendland, Adv. Comp. Math. 4, 1995; Duchon 1977.
 class RadialMap final : public SpaceMap {
  public:
-  /// O(n^3), n up to 6000.
-  /// \throws Error(bad_argument): no points, too many, two at one location with different displacements, singular system
+  /// Takes O(n^3), for n up to 6000.
+  /// \throws Error(bad_argument) if there are no points or too many, if two points at one location have different displacements, or if the system is singular
   RadialMap(const ScatteredDisplacements& data, const RadialMapOptions& options = {});
   Point point(const Point& p) const override;
   SpaceMapDerivatives derivatives(const Point& p) const override;

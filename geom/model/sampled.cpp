@@ -153,7 +153,7 @@ SampledSurface sample_surface(const std::function<Point(Uv)>& function, const Pa
       return error;
     };
     std::vector<char> split_u(u.n_intervals(), 0), split_v(v.n_intervals(), 0);
-    // On the station lines each direction shows its own error.
+    // Errors on the station lines of one direction show which direction must be split.
     for (std::size_t i = 0; i < u.n_intervals(); ++i)
       for (const double b : v.at)
         for (const double share : k_between)
@@ -162,7 +162,7 @@ SampledSurface sample_surface(const std::function<Point(Uv)>& function, const Pa
       for (const double a : u.at)
         for (const double share : k_between)
           if (error_at({a, v.between(j, share)}) > options.tolerance) split_v[j] = 1;
-    // Test inside cells only if no border exceeded the tolerance.
+    // Test the inside of a cell only if none of its sides exceeded the tolerance.
     for (std::size_t i = 0; i < u.n_intervals(); ++i)
       for (std::size_t j = 0; j < v.n_intervals(); ++j) {
         if (split_u[i] || split_v[j]) continue;

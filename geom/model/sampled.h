@@ -1,5 +1,5 @@
-// Approximates functions by splines to a tolerance that is checked between the samples: surfaces and curves of scripts, and refits for formats that support
-// only NURBS.
+// Approximates functions by splines to a tolerance that is checked between the samples. Used for surfaces and curves of scripts, and for refits for formats
+// that support only NURBS.
 #pragma once
 
 #include <functional>
@@ -21,13 +21,14 @@ struct SamplingOptions {
 
 struct SampledSurface {
   std::shared_ptr<const NurbsSurface> surface;  ///< bicubic, over the given box
-  double error = 0.0;            ///< metres: largest found error: 4 points in every cell and 2 on each of its sides, none of them a sample of the spline
+  double error = 0.0;            ///< metres: largest error found at 4 points in every cell and 2 on each of its sides; none of them is a sample of the spline
   Uv worst;                      ///< location of the largest error
   std::size_t n_u = 0, n_v = 0;  ///< samples
 };
 /// Fits a bicubic spline surface through samples of `f`, refined where the error is above the tolerance. `f` is called from this thread only, once for each
 /// parameter pair.
-/// \throws Error(bad_argument) with the location: not finite, not periodic although declared so, tolerance not reached with max_intervals
+/// \throws Error(bad_argument) with the location where the function is not finite, is not periodic although declared so, or where max_intervals do not reach
+/// the tolerance
 SampledSurface sample_surface(const std::function<Point(Uv)>& f, const ParameterBox& box, const SamplingOptions& options);
 /// Approximates a surface without an exact NURBS form (of revolution, deformed ...) by a bicubic spline; its breaks and periods are kept.
 SampledSurface sample_surface(const Surface& surface, double tolerance);

@@ -13,9 +13,9 @@
 namespace sterna {
 namespace {
 
-/// Samples for the length of a side: the resulting fractions are even to 1e-6; the points themselves lie on the curve in any case.
+/// Number of samples for the length of a side. The resulting fractions are even to 1e-6; the points lie on the curve in any case.
 constexpr std::size_t k_length_samples = 2000;
-/// A frame whose size is below this fraction of its distance from the origin, or of a metre, is a point.
+/// A frame is a point if its size is below this fraction of a metre, or of its distance from the origin.
 constexpr double k_point_size = 1e-9;
 
 [[noreturn]] void refuse_section(ErrorCode code, const std::string& problem, std::vector<ErrorPlace> places = {}) {
@@ -169,7 +169,7 @@ std::vector<Point> section_loop(const WingSection& section, const std::optional<
   const Point leading = *nose;
   const Vec3 chord = middle - leading;
   Vec3 gap = upper - lower;
-  if (*trailing_edge > 0.0 && norm(gap) <= k_point_size * norm(chord)) {  // sharp so far: the edge is opened towards the upper side
+  if (*trailing_edge > 0.0 && norm(gap) <= k_point_size * norm(chord)) {  // the airfoil is sharp: open its edge towards the upper side
     Vec3 up;
     for (std::ptrdiff_t i = 0; i < n_upper; ++i) up += loop[static_cast<std::size_t>(i)] - leading;
     for (auto i = static_cast<std::size_t>(n_upper); i < loop.size(); ++i) up -= loop[i] - leading;
@@ -190,7 +190,7 @@ AirfoilRow airfoil_row(const std::vector<Point>& loop, std::size_t n, const std:
   const std::vector<double> at = spline_parameters(loop, SplineParameters::centripetal);
   const CurvePtr curve = spline_curve(loop, {.tangents = SplineTangents::not_a_knot, .at = at});
   const Point middle = 0.5 * (loop.front() + loop.back());
-  // The leading edge is farthest from the trailing edge, near the farthest point of the list.
+  // The leading edge is the point of the curve farthest from the trailing edge; it is near the farthest point of the list.
   std::size_t best = 0;
   for (std::size_t i = 0; i < loop.size(); ++i)
     if (distance(loop[i], middle) > distance(loop[best], middle)) best = i;
@@ -216,11 +216,11 @@ AirfoilRow airfoil_row(const std::vector<Point>& loop, std::size_t n, const std:
 }
 
 WingRows wing_rows(const Wing& wing) {
-  /// Trailing edges thinner than this fraction of the chord are sharp: files have 6 digits.
+  /// Trailing edges thinner than this fraction of the chord are sharp, because files have 6 digits.
   constexpr double k_sharp = 1e-6;
   WingRows result;
   std::optional<double> thickness = wing.trailing_edge;
-  for (const bool is_first_try : {true, false}) {  // all sharp if any is sharp
+  for (const bool is_first_try : {true, false}) {  // in the second try all edges are sharp, if any of them is
     result = {};
     for (const WingSection& section : wing.sections) {
       if (section.is_row) result.rows.push_back(section.loop);

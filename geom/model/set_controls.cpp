@@ -46,7 +46,7 @@ class ControlSetter {
     return std::ranges::find(result_.control_surfaces, name, &ControlSurface::name) != result_.control_surfaces.end();
   }
 
-  /// Splits surfaces that the requested controls move by segments into one surface per segment.
+  /// Splits each surface of which the requested controls move segments into one surface per segment.
   void split_segments(const std::vector<ControlSetting>& settings) {
     std::set<std::string> moved;
     for (const ControlSetting& setting : settings) moved.insert(setting.names);  // segments have their own names
@@ -93,7 +93,7 @@ class ControlSetter {
   void ask_by(const Control& control, const ControlSetting& setting) {
     for (const ControlParticipation& p : control.participations) {
       std::string name = p.segment;
-      if (!is_surface(name))  // the only segment of a surface may have its name or a segment's
+      if (!is_surface(name))  // the only segment of a surface may be called by the name of the surface or of the segment
         for (const ControlSurface& surface : result_.control_surfaces)
           if (segment_name(surface.name, 0) == p.segment && surface.hinge.size() == 2) name = surface.name;
       if (!is_surface(name))
@@ -118,7 +118,7 @@ class ControlSetter {
                    "the file has " + all);
   }
 
-  /// Joins adjacent segments with equal deflections again; all segments together have their surface's name.
+  /// Joins adjacent segments with equal deflections again. If all segments are joined, the result has the name of their surface.
   void join_segments() {
     std::vector<ControlSurface> joined;
     std::map<std::string, std::string> renamed;  // the first segment of a row that is the whole surface

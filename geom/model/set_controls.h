@@ -9,8 +9,8 @@
 namespace sterna {
 
 struct ControlSetting {
-  std::string names;   ///< name of control surfaces or of a control that moves several; a pattern (* and ?)
-  double angle = 0.0;  ///< radians; sign as in Deflection; for a control: multiplied by the factor of each participating surface
+  std::string names;   ///< name of a control surface, or of a control that moves several surfaces; or a pattern with * and ?
+  double angle = 0.0;  ///< radians, with the sign of Deflection; the angle of a control is multiplied by the factor of each participating surface
   ControlGap gap = ControlGap::sealed;
   double fairing = Deflection::k_automatic_fairing;  ///< m
   OtherSide other_side = OtherSide::same;            ///< for surfaces that have an image

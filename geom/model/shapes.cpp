@@ -18,7 +18,7 @@
 namespace sterna {
 namespace {
 
-/// Station of a duct with rectangular sections: walls between stations are cubics (straight or with level ends), flat ends.
+/// Station of a duct with rectangular sections. The walls between stations are cubics, straight or parallel to x at both ends; the ends of the duct are flat.
 struct DuctStation {
   double x, half_width, half_height;
   bool is_level = false;  ///< the part that begins here has walls parallel to x at both ends
@@ -181,8 +181,8 @@ Body nacelle_body(const std::string& name, const Point& position, const NacelleO
     body.frames.push_back(
         {.name = "x" + std::to_string(x), .center = {x * o.length, 0.0, 0.0}, .height = ratio * o.diameter, .width = ratio * o.diameter, .n_points = 11});
   };
-  // Front: quarter ellipse from the highlight to the largest diameter; rear: parabola to the exit. The frames are dense at the start of the ellipse, so that it
-  // starts perpendicular to the axis: any missing turning of the cowl would have to be in the lip.
+  // The front is a quarter ellipse from the highlight to the largest diameter, the rear a parabola to the exit. The frames are dense at the start of the
+  // ellipse, so that it starts perpendicular to the axis: any missing turning of the cowl would have to be in the lip.
   for (const double t : {0.0, 0.005, 0.02, 0.07, 0.18, 0.38, 0.65})
     add(t * o.thickest, o.highlight_ratio + (1.0 - o.highlight_ratio) * std::sqrt(1.0 - (1.0 - t) * (1.0 - t)));
   for (const double t : {0.0, 0.35, 0.7, 1.0}) add(o.thickest + t * (1.0 - o.thickest), 1.0 - (1.0 - o.exit_ratio) * t * t);
@@ -195,15 +195,16 @@ namespace {
 
 /// Distance of a pylon's lower end below the body's surface, as a fraction of the half height.
 constexpr double k_pylon_sink = 0.02;
-/// Samples of the section at that end.
+/// Number of samples of the section at that lower end.
 constexpr int k_pylon_stations = 40;
-/// If the trailing edge is farther back than this, relative to the body's length, there is no room to leave through the surface before the end plane: it is
-/// then behind the body.
+/// If the trailing edge is farther back than this, relative to the body's length, it is placed behind the body, because there is no room to leave through the
+/// surface before the end plane.
 constexpr double k_last_trailing = 0.98;
-/// A section behind the body leaves the surface before the end plane: there it is outside by this fraction of the half height.
+/// A section whose trailing edge is behind the body must leave the surface before the end plane. In that plane it is outside by this fraction of the half
+/// height.
 constexpr double k_pylon_rise = 0.05;
 
-/// Upper (side 1) or lower outline of a body over x in its own axes, straight between frames: inside convex bodies.
+/// Upper (side 1) or lower outline of a body over x in its own axes. It is straight between frames, and so lies inside convex bodies.
 class BodyOutline {
  public:
   BodyOutline(const Body& body, double side) : body_(body), side_(side) {}
@@ -233,8 +234,9 @@ class BodyOutline {
   double side_;
 };
 
-/// Returns the ends of the pylon's lower section in the body's axes, as (x, distance from z = 0 towards the wing): just below the surface, with the whole
-/// section inside, and the trailing edge so close to the surface that it leaves through the surface and not through the end plane of the body.
+/// Returns the leading and the trailing edge of the pylon's lower section in the axes of the body, as (x, distance from z = 0 towards the wing). The whole
+/// section lies just below the surface of the body. Its trailing edge is so close to the surface that it comes out through the surface, not through the end
+/// plane of the body.
 std::array<Uv, 2> ends_at_surface(const BodyOutline& outline, const PylonOptions& o, Uv wing_trailing, const std::string& attempted) {
   const double end = outline.front() + outline.length();
   Uv leading{outline.front() + o.nacelle_from * outline.length(), 0.0}, trailing{outline.front() + o.nacelle_to * outline.length(), 0.0};
@@ -255,7 +257,7 @@ std::array<Uv, 2> ends_at_surface(const BodyOutline& outline, const PylonOptions
                          "be less");
     trailing.v = top - sink;
   }
-  // The section is thick and the surface round: where the section would protrude on either side of its middle, the leading end is lowered.
+  // The section is thick and the surface is round. Where the section would protrude on either side of its middle, its leading end is lowered.
   for (int i = 0; i < k_pylon_stations; ++i) {
     const double t = static_cast<double>(i) / k_pylon_stations, x = leading.u + t * (trailing.u - leading.u);
     if (is_behind && leading.v + t * (trailing.v - leading.v) > *outline.height(x)) break;  // from here on it is in the air behind the body

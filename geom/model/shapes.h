@@ -10,16 +10,16 @@
 
 namespace sterna {
 
-/// Axis-parallel box as a solid body.
+/// Returns an axis-parallel box as a solid body.
 /// \throws Error(bad_argument) if its size is zero
 Model make_box(const std::string& name, const Point& from, const Point& to);
 
-/// Solid cylinder between two points.
+/// Returns a solid cylinder between two points.
 /// \throws Error(bad_argument) if its length or radius is zero
 Model make_cylinder(const std::string& name, const Point& from, const Point& to, double radius);
 
-/// Wind-tunnel test section around the x axis, with the fluid inside and the model at the origin. Rectangular (width, height: walls <wall>_floor, <wall>_right
-/// at starboard, <wall>_ceiling and <wall>_left), or round (diameter: one wall).
+/// Wind-tunnel test section around the x axis, with the fluid inside and the model at the origin. The section is rectangular (width and height given), with the
+/// walls <wall>_floor, <wall>_right at starboard, <wall>_ceiling and <wall>_left, or round (diameter given), with one wall.
 struct TestSectionOptions {
   double length = k_automatic;
   double width = k_automatic;
@@ -125,7 +125,7 @@ struct Schema<NacelleOptions> {
 /// \throws Error(bad_argument)
 Body nacelle_body(const std::string& name, const Point& position, const NacelleOptions& options);
 
-/// Pylon between a wing and a nacelle below or above it: from just below the cowl's surface to inside the wing.
+/// Pylon between a wing and a nacelle below or above it. It extends from just below the cowl's surface to inside the wing.
 struct PylonOptions {
   double thickness = 0.1;
   double nacelle_from = 0.2;
@@ -148,7 +148,8 @@ struct Schema<PylonOptions> {
                .member = &O::nacelle_to,
                .min = 0.0,
                .max = 1.5,
-               .help = "position of the trailing edge at the cowl, relative to the nacelle's length; above 0.98 the edge is behind the nozzle, over the jet"},
+               .help = "position of the pylon's trailing edge on the nacelle, as a fraction of the nacelle's length; above 0.98 the trailing edge lies behind "
+                       "the nozzle, above the jet"},
       Field<O>{.name = "wing_from",
                .member = &O::wing_from,
                .min = -0.5,

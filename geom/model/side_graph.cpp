@@ -1,4 +1,4 @@
-// Half-edges are sorted by angle around every node; each face is traversed with the face on the left (de Berg et al., Computational Geometry, ch. 2).
+// Half-edges are sorted by angle around every node. Each face is then traversed so that it lies on the left (de Berg et al., Computational Geometry, ch. 2).
 #include "geom/model/side_graph.h"
 
 #include <algorithm>

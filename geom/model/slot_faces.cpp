@@ -11,7 +11,7 @@
 namespace sterna {
 namespace {
 
-/// Poles of half an arc as a rational quadratic: corner, intersection of the tangents, foremost point; weights 1, w, 1.
+/// Poles of half an arc as a rational quadratic: corner, intersection of the tangents, foremost point. Their weights are 1, w, 1.
 struct HalfArc {
   Point corner, shoulder, front;
   double weight;

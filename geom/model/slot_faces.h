@@ -1,4 +1,4 @@
-// Faces of slots between a wing and its moving parts: coves and noses, walls at the ends. Internal to the wing's builders.
+// Faces of slots between a wing and its moving parts: coves, noses, and walls at the ends. Internal to the wing's builders.
 #pragma once
 
 #include <array>
@@ -26,13 +26,14 @@ struct SlotStation {
 /// Creates the cross section of a cove or nose, from the upper corner to the lower one: two edges that meet at the foremost point, or one edge.
 SplitCurve slot_section(ModelBuilder& builder, const SlotStation& station);
 
-/// Creates the faces of a cove or nose: between neighbouring stations, bounded by upper[i] and lower[i], which lead from station i to i + 1, and by their
-/// sections.
+/// Creates the faces of a cove or nose between neighbouring stations. They are bounded by upper[i] and lower[i], which lead from station i to i + 1, and by the
+/// sections of these stations.
 void slot_strip(ModelBuilder& builder, const std::vector<SplitCurve>& sections, const std::vector<SlotStation>& stations, const std::vector<EdgeId>& upper,
                 const std::vector<EdgeId>& lower, FaceRole role, const std::string& name);
 
-/// Wall between parts of the cross sections of an upper and a lower side (over their own parameters, both away from the slot's section or both towards it). The
-/// wall is ruled. At one end it is closed by the section, at the other by `end` (an edge between the other ends; empty: they meet there).
+/// Wall between parts of the cross sections of an upper and a lower side. Each curve has its own parameter, but both run away from the slot's section or both
+/// towards it. The wall is ruled. At one end it is closed by the section, at the other by `end`, an edge between the other ends of the curves (empty: they meet
+/// there).
 struct SlotWall {
   SplitCurve upper, lower;
   bool is_slot_at_start = false;  ///< the slot's section is at the start of both curves

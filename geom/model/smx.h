@@ -1,5 +1,6 @@
-// The geometry files of sumo (.smx): a root `Assembly`, or a single `BodySkeleton` or `WingSkeleton` as in its component files.
-// Format: docs/method/smx.md. Source: the schema in sumo's files; angles in radians (mesh criteria in degrees), lengths taken as metres.
+// Reads and writes the geometry files of sumo (.smx). The root element is an `Assembly`, or a single `BodySkeleton` or `WingSkeleton` as in sumo's component
+// files.
+// Format: docs/method/smx.md. Source: the schema in sumo's files. Angles are in radians (mesh criteria in degrees); lengths are taken as metres.
 #pragma once
 
 #include <filesystem>

@@ -1,4 +1,4 @@
-// Reader of .smx. Steps: components of the root, then the systems that refer to them, then resolution of references.
+// Reader of .smx. Steps: read the components of the root, then the systems that refer to them, then resolve references.
 #include <algorithm>
 #include <cmath>
 #include <numbers>
@@ -15,13 +15,14 @@
 namespace sterna {
 namespace {
 
-/// A polyline that turns by more reverses its direction: sumo rejects it too.
+/// A polyline that turns by more than this angle reverses its direction. sumo rejects it, too.
 constexpr double k_max_turn = 175.0 * k_degree;
-/// Normalised frame points with a smaller deviation are accurate within the 6 digits of files; moving them would change shapes at every save.
+/// Normalised frame points with a smaller deviation are accurate within the 6 digits of files, and are not moved. Otherwise the shape would change at every
+/// save.
 constexpr double k_normal_slack = 2e-6;
 /// Points closer than this, relative to a unit section, are one repeated point.
 constexpr double k_same_smx_point = 1e-12;
-/// Half width of a section's end that is intended to be in the plane of symmetry.
+/// Largest offset from the plane of symmetry of a section's end that is intended to be in that plane.
 constexpr double k_on_plane = 1e-9;
 
 class SmxReader {
@@ -231,7 +232,7 @@ WingSection SmxReader::section(const Node& node) {
   if (s.points.empty() && s.naca.empty()) file_.fail(node, "the section has neither airfoil points nor a 'naca' designation");
   if (s.points.empty() && !s.naca.empty()) {
     try {
-      naca_airfoil(s.naca);  // the sections are generated from it
+      naca_airfoil(s.naca);  // the sections are generated from the designation
     } catch (const Error& e) {
       file_.fail(node, "attribute 'naca': " + e.info().problem);
     }

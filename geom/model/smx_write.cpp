@@ -158,7 +158,8 @@ void add_body(Node& root, const Body& body) {
   add_criterion(node, body.criterion);
 }
 
-/// Distance of the ends of a section, relative to the chord, below which .smx, which closes all airfoils, does not change it: rounding of coordinates in files.
+/// .smx closes all airfoils. A section is not changed by this if the distance of its ends, relative to the chord, is below this value: rounding of coordinates
+/// in files.
 constexpr double k_closed_airfoil = 1e-6;
 
 void add_wing(Node& root, const Wing& wing) {

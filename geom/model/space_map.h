@@ -1,4 +1,5 @@
-// Deformations of space D(p), and curves and surfaces composed with them: S'(u, v) = D(S(u, v)). No refit: same parameters, exact to rounding.
+// Deformations of space D(p), and curves and surfaces composed with them: S'(u, v) = D(S(u, v)). There is no refit: parameters are the same, and results are
+// exact to rounding.
 #pragma once
 
 #include <functional>
@@ -29,8 +30,8 @@ class SpaceMap {
 };
 using SpaceMapPtr = std::shared_ptr<const SpaceMap>;
 
-/// A function as a map. Derivatives are central differences of fourth order (mixed derivatives: second order) with `step` metres: 25 calls. A good step is
-/// about 1e-3 of the length scale over which the function varies; second derivatives are then accurate to about 1e-9 relative to that scale.
+/// A map given by a function. Derivatives are central differences of fourth order (mixed derivatives: second order) with `step` metres, which need 25 calls. A
+/// good step is about 1e-3 of the length scale over which the function varies; second derivatives are then accurate to about 1e-9 relative to that scale.
 class FunctionMap final : public SpaceMap {
  public:
   /// \throws Error(bad_argument) unless step > 0

@@ -1,4 +1,4 @@
-// Splines as one-directional operators on rows of points: parameters -> pieces between corners -> tangents at the points -> poles.
+// Splines are computed row by row of points in one direction: parameters, pieces between corners, tangents at the points, poles.
 #include "geom/model/spline.h"
 
 #include <algorithm>
@@ -99,7 +99,7 @@ void solve_tridiagonal(const Numbers& below, Numbers diagonal, const Numbers& ab
   for (std::size_t i = n - 1; i-- > 0;) x[i] = (x[i] - above[i] * x[i + 1]) / diagonal[i];
 }
 
-/// Continuous second derivatives: h_i m_(i-1) + 2 (h_(i-1) + h_i) m_i + h_(i-1) m_(i+1) = 3 (h_i d_(i-1) + h_(i-1) d_i).
+/// Tangents for continuous second derivatives: h_i m_(i-1) + 2 (h_(i-1) + h_i) m_i + h_(i-1) m_(i+1) = 3 (h_i d_(i-1) + h_(i-1) d_i).
 struct EndTangents {
   const Vec3* start = nullptr;  ///< nullptr: natural
   const Vec3* end = nullptr;
@@ -175,7 +175,7 @@ Tangents local_tangents(const Points& p, const Numbers& t, bool is_akima, bool c
   const std::size_t n = p.size();
   const Tangents inner = slopes_of(p, t);
   if (n == 2) return {inner[0], inner[0]};
-  // Slopes d[i + 2] of segment i with two more at each end: those of the other end (closed), or extrapolated (Akima).
+  // Slope of segment i is d[i + 2]. There are two more slopes at each end: those of the other end (closed), or extrapolated ones (Akima).
   Tangents d(n + 3);
   std::copy(inner.begin(), inner.end(), d.begin() + 2);
   if (closed) {
@@ -294,7 +294,7 @@ void append_piece(const Points& p, const Numbers& t, const SplineOptions& o, con
     if (!is_smooth(o.tangents)) {
       poles.push_back(third(i - 1));
       poles.push_back(second(i));
-    } else if (h(i) >= h(i - 1)) {  // blossom at (t_(i-1), t_i, t_(i+1)), from the longer segment: smaller rounding error
+    } else if (h(i) >= h(i - 1)) {  // blossom at (t_(i-1), t_i, t_(i+1)), computed from the longer segment for a smaller rounding error
       poles.push_back(second(i) + (t[i - 1] - t[i]) / h(i) * (third(i) - second(i)));
     } else {
       poles.push_back(second(i - 1) + (t[i + 1] - t[i - 1]) / h(i - 1) * (third(i - 1) - second(i - 1)));
@@ -428,8 +428,8 @@ NurbsSurfaceForm spline_surface_form(const PointGrid& grid, const SplineOptions&
     }
     columns.push_back(poles_of(p, tu, u, ends_of(u, j)));
   }
-  // The end tangents along v belong to rows of points, but rows of poles are required: they are splined along u like the points, without twist where u is
-  // clamped.
+  // The end tangents along v belong to rows of points, but rows of poles are required. The tangents are therefore splined along u in the same way as the
+  // points, without twist where u is clamped.
   const Vec3 none{};
   const auto splined_tangents = [&](const std::vector<Vec3>& tangents) {
     return tangents.empty() ? Points{} : poles_of(tangents, tu, u, u.tangents == SplineTangents::clamped ? EndTangents{&none, &none} : EndTangents{});

@@ -1,5 +1,5 @@
-// Cubic and linear splines through points: curves, and surfaces through grids of points (docs/method/surface.md, "Parametric surfaces": bicubic and
-// linear-cubic splines), exact as NURBS. The parameter runs over [0, 1] unless the parameters of the points are given.
+// Cubic and linear splines as curves through points and as surfaces through grids of points (docs/method/surface.md, "Parametric surfaces": bicubic and
+// linear-cubic splines). NURBS represent them exactly. The parameter runs over [0, 1] unless the parameters of the points are given.
 #pragma once
 
 #include <cstddef>
@@ -35,7 +35,7 @@ struct SplineOptions {
   SplineParameters parameters = SplineParameters::chord_length;
   std::vector<double> at;            ///< parameters of the points, ascending; empty: computed by `parameters`
   std::vector<Vec3> start_tangents;  ///< clamped: dC/dt at the first point, one for each row of a surface; empty: natural there
-  std::vector<Vec3> end_tangents;    ///< at the last point
+  std::vector<Vec3> end_tangents;    ///< the same at the last point
   std::vector<std::size_t> corners;  ///< inner points where the curve may have a kink: it is splined piece by piece with the same end conditions
   bool is_closed = false;            ///< akima and bessel: smooth across the seam; the last point repeats the first
 };
@@ -57,12 +57,12 @@ std::vector<double> spline_parameters(std::span<const Point> points, SplineParam
 NurbsCurveForm<Point> spline_form(std::span<const Point> points, const SplineOptions& options);
 CurvePtr spline_curve(std::span<const Point> points, const SplineOptions& options);
 
-/// Returns the spline surface through a grid: along u first, then along v through the resulting poles; so S(u, v_j) is exactly the spline of column j. All
-/// columns share their parameters, the means of those of the columns (columns of zero length, poles, are ignored). Clamped in u and in v: zero twist at the
-/// corners.
+/// Returns the spline surface through a grid. It is splined along u first, then along v through the resulting poles, so S(u, v_j) is exactly the spline of
+/// column j. All columns share their parameters, which are the means of the parameters of the columns; columns of zero length (poles) are ignored. If u and v
+/// are clamped, the twist at the corners is zero.
 /// \throws Error(bad_argument) with the location of the fault
 NurbsSurfaceForm spline_surface_form(const PointGrid& grid, const SplineOptions& u, const SplineOptions& v);
-/// kind(): "bicubic spline", "linear-cubic spline" or "bilinear spline".
+/// Returns that surface; its kind() is "bicubic spline", "linear-cubic spline" or "bilinear spline".
 SurfacePtr spline_surface(const PointGrid& grid, const SplineOptions& u, const SplineOptions& v);
 
 }  // namespace sterna

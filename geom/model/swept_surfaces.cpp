@@ -13,7 +13,7 @@ namespace sterna {
 namespace {
 
 constexpr double k_sweep_turn = 2.0 * std::numbers::pi;
-/// Tolerance of a full period, relative to it: rounding of angles in files.
+/// Relative tolerance of a full period. It covers the rounding of angles in files.
 constexpr double k_whole_period = 1e-12;
 
 void check_range(Interval range, const char* attempted) {
@@ -21,7 +21,7 @@ void check_range(Interval range, const char* attempted) {
     throw_bad_argument(attempted, "the parameter range [" + std::to_string(range.from) + ", " + std::to_string(range.to) + "] has no length");
 }
 
-/// Tolerance within which a vector counts as a unit vector and is unchanged: dividing it again would change its last digits.
+/// A vector whose length differs from 1 by less counts as a unit vector and is unchanged: dividing it again would change its last digits.
 constexpr double k_unit_length = 1e-15;
 
 Vec3 unit(const Vec3& v) { return std::abs(dot(v, v) - 1.0) <= k_unit_length ? v : normalized(v); }
@@ -114,7 +114,7 @@ std::optional<NurbsSurfaceForm> RuledSurface::exact_nurbs() const {
   std::optional<NurbsCurveForm<Point>> a = a_->exact_nurbs(), b = b_->exact_nurbs();
   if (!a || !b) return std::nullopt;
   const bool is_rational = !a->weights.empty() || !b->weights.empty();
-  // (1 - v) A / w_a + v B / w_b has one denominator of the same degree only if the weights are equal.
+  // The form (1 - v) A / w_a + v B / w_b has one denominator of the same degree only if the weights are equal.
   if (is_rational && (a->weights != b->weights || a->knots != b->knots)) return std::nullopt;
   const int degree = std::max(a->degree, b->degree);
   // Elevate each curve's knots to the common degree, then unite both.
@@ -131,7 +131,7 @@ std::optional<NurbsSurfaceForm> RuledSurface::exact_nurbs() const {
 namespace {
 
 constexpr const char* k_view = "taking a part of a surface";
-/// Allowed overreach of a view beyond its domain, relative to it: rounding of its own limits.
+/// A view may exceed its domain by this fraction of it: rounding of its own limits.
 constexpr double k_swept_overreach = 1e-9;
 
 Interval image(const SurfaceView::Map& map, Interval range) {

@@ -7,8 +7,8 @@
 
 namespace sterna {
 
-/// A profile rotated about an axis: u is the angle (right-hand rule, 0 at the profile), v the profile's parameter. No exact NURBS form: a rational form has a
-/// different parameter along the circles.
+/// A profile rotated about an axis. u is the angle (right-hand rule, 0 at the profile), v the profile's parameter. It has no exact NURBS form, because a
+/// rational form has a different parameter along the circles.
 class RevolutionSurface final : public Surface {
  public:
   /// \throws Error(bad_argument) for an axis of zero length, or an angle range of zero length or more than a full turn
@@ -32,7 +32,7 @@ class RevolutionSurface final : public Surface {
   Interval angles_;
 };
 
-/// C(u) + v * direction.
+/// The surface C(u) + v * direction.
 class ExtrusionSurface final : public Surface {
  public:
   /// \throws Error(bad_argument) for a direction or a range of zero length
@@ -53,8 +53,8 @@ class ExtrusionSurface final : public Surface {
   Interval range_;
 };
 
-/// (1 - v) A(u) + v B(u), u and v in [0, 1], each curve's domain mapped to [0, 1]. Has an exact NURBS form if both curves have one and either at most one of
-/// them is rational, or both are rational with equal weights on equal knots.
+/// The surface (1 - v) A(u) + v B(u) for u and v in [0, 1]; the domain of each curve is mapped to [0, 1]. It has an exact NURBS form if both curves have one,
+/// and at most one of them is rational or both have equal weights on equal knots.
 class RuledSurface final : public Surface {
  public:
   RuledSurface(CurvePtr a, CurvePtr b);
@@ -72,7 +72,7 @@ class RuledSurface final : public Surface {
   CurvePtr a_, b_;
 };
 
-/// base(scale_u * p + shift_u, scale_v * q + shift_v), where (p, q) is the view's (u, v), or its (v, u) when exchanged.
+/// The surface base(scale_u * p + shift_u, scale_v * q + shift_v), where (p, q) is the view's (u, v), or its (v, u) when exchanged.
 class SurfaceView final : public Surface {
  public:
   struct Map {

@@ -32,13 +32,13 @@ Frame transformed_frame(const Frame& frame, const Transform& t) {
 
 Interval scaled(Interval range, double s) { return {s * range.from, s * range.to}; }
 
-/// Restores the parameters if lengths among them (v of a cylinder) were scaled: a view removes the factor.
+/// Restores the parameters of a surface if some of them are lengths and were scaled (v of a cylinder). A view removes the factor.
 SurfacePtr with_old_parameters(SurfacePtr surface, const ParameterBox& box, double scale_u, double scale_v) {
   if (scale_u == 1.0 && scale_v == 1.0) return surface;
   return std::make_shared<SurfaceView>(std::move(surface), box, SurfaceView::Map{scale_u, 0.0}, SurfaceView::Map{scale_v, 0.0});
 }
 
-/// Returns surfaces with a frame under a similarity; empty for other types.
+/// Returns the transformed surface if its type has a frame, under a similarity; empty for other types.
 SurfacePtr transformed_analytic(const Surface& surface, const Transform& t) {
   constexpr double k_same_size = 1e-14;  // rounding of a rotation's matrix
   const double s = std::abs(t.scale() - 1.0) <= k_same_size ? 1.0 : t.scale();

@@ -7,13 +7,13 @@
 
 namespace sterna {
 
-/// Returns T(C(t)): poles and frames are transformed where the type allows it (NURBS and lines by any map, circles by similarities), other curves are wrapped.
-/// A mirror reverses the normal du x dv of a surface relative to its image: faces change `is_reversed`.
+/// Returns T(C(t)). Poles and frames are transformed where the type allows it: NURBS and lines by any map, circles by similarities. Other curves are wrapped. A
+/// mirror reverses the normal du x dv of a surface relative to its image, so faces change `is_reversed`.
 /// \throws Error(bad_argument) if T is singular
 CurvePtr transformed(const CurvePtr& curve, const Transform& transform);
 SurfacePtr transformed(const SurfacePtr& surface, const Transform& transform);
 
-/// T(C(t)) of any curve.
+/// The curve T(C(t)), for any curve.
 class TransformedCurve final : public Curve {
  public:
   TransformedCurve(CurvePtr base, const Transform& transform) : base_(std::move(base)), transform_(transform) {}
@@ -31,7 +31,7 @@ class TransformedCurve final : public Curve {
   Transform transform_;
 };
 
-/// T(S(u, v)) of any surface.
+/// The surface T(S(u, v)), for any surface.
 class TransformedSurface final : public Surface {
  public:
   TransformedSurface(SurfacePtr base, const Transform& transform) : base_(std::move(base)), transform_(transform) {}

@@ -1,5 +1,5 @@
-// Wings: rows of points through the sections -> a surface around the airfoil between sections, split at the leading edge -> upper and lower faces over shared
-// edges, patches cut out of them -> trailing edge and tips -> coves and walls of open slots -> the moving parts.
+// Builds wings. Steps: make rows of points through the sections; spline a surface around the airfoil between sections, split at the leading edge; make upper
+// and lower faces over shared edges, and cut patches out of them; add trailing edge and tips, coves and walls of open slots, and the moving parts.
 #include <algorithm>
 #include <array>
 #include <cmath>
@@ -24,7 +24,7 @@ namespace {
 constexpr std::size_t k_side_points = k_wing_side_points;
 /// If the first and last section of a symmetric wing are nearer to each other than this fraction of the span, the wing is a ring.
 constexpr double k_ring = 1e-6;
-/// Cosine of the angle, seen along x, between a panel and the reversed previous panel, above which it overlaps that one: 15 degrees.
+/// Limit of the cosine of the angle, seen along x, between a panel and the reversed previous panel (15 degrees). A panel above it overlaps the previous one.
 constexpr double k_fold = 0.9659258262890683;
 
 /// Edges shared by the faces on both sides of a section.
@@ -34,7 +34,7 @@ struct Station {
   CornerId leading() const { return upper.corners.back(); }
 };
 
-/// Returns true if the row is planar to the rounding of a rotated section, 1e-10 of its size: within the tolerance of a planar face.
+/// Returns true if the row is planar to 1e-10 of its size: the rounding of a rotated section, and within the tolerance of a planar face.
 bool is_planar(const std::vector<Point>& row) {
   Vec3 normal;
   double size = 0.0, off = 0.0;
@@ -51,11 +51,11 @@ bool is_planar(const std::vector<Point>& row) {
 struct CutOut {
   std::vector<double> places;                        ///< locations of the corners of the lips
   std::vector<EdgeId> upper, lower;                  ///< lips between the corners
-  std::array<SplitCurve, 2> upper_ends, lower_ends;  ///< across the chord at its first and last location
-  std::array<EdgeId, 2> thickness;                   ///< edges of a blunt trailing edge there
+  std::array<SplitCurve, 2> upper_ends, lower_ends;  ///< edges across the chord at the first and last location of the cut-out
+  std::array<EdgeId, 2> thickness;                   ///< edges of a blunt trailing edge at these locations
 };
 
-/// Ends of a wing where a moving part was cut off: walls.
+/// Ends of a wing where a moving part was cut off. They are closed by walls.
 struct CutEnds {
   bool right = false, left = false;
 };
@@ -80,7 +80,7 @@ class WingBuilder {
   const WingPatch* slot_at(ControlKind kind, double place) const;
   void keep_ends(Crossing side, std::size_t patch, bool is_last, const SplitCurve& across);
   void make_cove(std::size_t patch);
-  /// Returns the name of a control surface that covers the whole chord there, else that of the wing.
+  /// Returns the name of a control surface that covers the whole chord at an end, else that of the wing.
   const std::string& name_at_end(std::size_t section, std::size_t neighbour) const;
   void tip(const Station& at, std::size_t section, std::size_t neighbour, const EndCap& cap);
 
@@ -117,13 +117,13 @@ void WingBuilder::make_rows() {
       refuse("two neighbouring sections, number " + std::to_string(i) + " and " + std::to_string(i + 1) + " along the whole span, are at the same location");
 }
 
-/// Rejects a panel that folds back over the previous one: sections out of order. \pre rows in component axes
+/// Rejects a panel that folds back over the previous one because sections are out of order. \pre rows in component axes
 void WingBuilder::refuse_fold_back() const {
   for (std::size_t i = 2; i < rows_.size(); ++i) {
     const Vec3 before = rows_[i - 1][k_side_points] - rows_[i - 2][k_side_points], after = rows_[i][k_side_points] - rows_[i - 1][k_side_points];
     const Vec3 a{0.0, before.y, before.z}, b{0.0, after.y, after.z};
     if (!(norm(a) > 0.0 && norm(b) > 0.0 && dot(a, b) < -k_fold * norm(a) * norm(b))) continue;
-    // Chord of the previous panel at the end of this one: a joined wing may return beside it.
+    // Chord of the previous panel at the end of this panel. A joined wing may return beside it.
     const double t = std::max(0.0, 1.0 - norm(b) / norm(a));
     const auto between = [&](std::size_t k) { return rows_[i - 2][k].x + t * (rows_[i - 1][k].x - rows_[i - 2][k].x); };
     if (rows_[i][k_side_points].x < between(0) && between(k_side_points) < rows_[i][0].x)
@@ -381,8 +381,8 @@ const std::string& WingBuilder::name_at_end(std::size_t section, std::size_t nei
   return patch && !patch->slot ? patch->name : wing_.name;
 }
 
-/// Builds a tip: flat, or half ellipses between upper and lower side as rational quadratics: side, side + bulge, crest line, side + bulge, side. The bulge is
-/// the section's half thickness times the height, outwards along the section's normal.
+/// Builds a flat tip, or a tip of half ellipses between upper and lower side. These are rational quadratics with the poles side, side + bulge, crest line, side
+/// + bulge, side. The bulge is the section's half thickness times the height, outwards along the section's normal.
 void WingBuilder::tip(const Station& at, std::size_t section, std::size_t neighbour, const EndCap& cap) {
   const std::string& name = name_at_end(section, neighbour);
   if (!(cap.height > 0.0)) {

@@ -9,7 +9,7 @@
 
 namespace sterna {
 
-/// u on both sides: 0 trailing edge .. 1 leading edge; v along the span.
+/// Upper and lower side. u on both sides runs from 0 at the trailing edge to 1 at the leading edge, v along the span.
 struct WingSides : WingPanel {
   NurbsSurfaceForm upper, lower;
   SurfacePtr upper_surface, lower_surface;
@@ -23,7 +23,7 @@ SurfacePtr trailing_edge_surface(const WingSides& sides);
 
 double first_place(const WingPatch& patch);
 double last_place(const WingPatch& patch);
-/// Returns the point on a polyline through locations; straight between them.
+/// Returns the point at a location on a polyline, which is straight between its points.
 /// \pre `place` within them
 WingPatch::Place crossing_at(const std::vector<WingPatch::Place>& line, double place);
 /// A patch's hinge in a section: the points where it crosses the sides, their midpoint, and the unit direction from there into the fixed part of the wing.

@@ -11,8 +11,8 @@ namespace sterna {
 Point chord_middle(const std::vector<Point>& row);
 Vec3 chord_vector(const std::vector<Point>& row);
 
-/// The wing's length along the midpoints of its chords, tip to tip. Locations are given in two ways: as a fraction of that length, and in rows (2.5: half way
-/// in the parameter between rows 2 and 3).
+/// The wing's length along the midpoints of its chords, from tip to tip. Locations are given in two ways: as a fraction of that length, and in rows (2.5 is
+/// half way between rows 2 and 3 in the parameter).
 class WingSpan {
  public:
   explicit WingSpan(const Wing& wing);
@@ -25,9 +25,9 @@ class WingSpan {
   double fraction_of(double place) const;
   /// Returns the wing's cross section; at integer locations exactly the row, to the bit.
   std::vector<Point> row(double place) const;
-  /// Returns the location at a fraction `part` of the way from the root (0) to the tip (1), measured perpendicular to the flow: along the midpoints of the
-  /// chords, seen along x. The root is the plane of symmetry. For wings that are not symmetric it is the end nearer to the plane if they have a mirror image,
-  /// else the end with the longer chord.
+  /// Returns the location at a fraction `part` of the way from the root (0) to the tip (1). The way is measured perpendicular to the flow, along the midpoints
+  /// of the chords as seen along x. The root is the plane of symmetry. For wings that are not symmetric it is the end nearer to the plane if they have a mirror
+  /// image, else the end with the longer chord.
   double place_from_root(const Wing& wing, double part) const;
 
  private:

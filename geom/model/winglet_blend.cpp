@@ -14,7 +14,8 @@ Vec3 across(const WingRows& rows, std::size_t i, std::size_t k) {
 }
 double turn_between(const Vec3& a, const Vec3& b) { return std::atan2(norm(cross(a, b)), dot(a, b)); }
 
-/// Intersection of the lines a0 -> a1 and b0 -> b1, seen along x (x half way between), and if it lies beyond both their ends.
+/// Intersection of the lines a0 -> a1 and b0 -> b1 as seen along x (its x is half way between the lines). Also stores if the intersection lies beyond the ends
+/// of both.
 struct Meeting {
   Point point;
   bool is_ahead = false;

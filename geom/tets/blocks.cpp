@@ -11,7 +11,7 @@ namespace sterna::tets {
 Blocks::Blocks(std::vector<Vec3> points, int n_halvings, double share, const RunContext& context)
     : planes_((std::size_t{1} << n_halvings) - 1), blocks_(std::size_t{1} << n_halvings) {
   std::vector<Block> parts(1);
-  std::vector<std::size_t> first = {0, points.size()};  // index of the first point of each part
+  std::vector<std::size_t> first = {0, points.size()};  // index of the first point of each part, and the end
   for (std::size_t n = 1; n < blocks_.size(); n *= 2) {
     std::vector<Block> halves(2 * n);
     std::vector<std::size_t> next(2 * n + 1, points.size());

@@ -11,7 +11,7 @@
 
 namespace sterna::tets {
 
-/// A box without its upper sides; initially all of space.
+/// A box that does not include its upper sides; initially all of space.
 struct Block {
   Vec3 low = {-std::numeric_limits<double>::infinity(), -std::numeric_limits<double>::infinity(), -std::numeric_limits<double>::infinity()};
   Vec3 high = {std::numeric_limits<double>::infinity(), std::numeric_limits<double>::infinity(), std::numeric_limits<double>::infinity()};
@@ -19,7 +19,8 @@ struct Block {
   bool holds(const Vec3& p) const { return p.x >= low.x && p.x < high.x && p.y >= low.y && p.y < high.y && p.z >= low.z && p.z < high.z; }
 };
 
-/// Recursive bisection of space at the longest side of the points' box, so that the lower part contains a given fraction of the points.
+/// Partition of space by recursive bisection. Each step divides the longest side of the points' box so that the lower part contains a given fraction of the
+/// points.
 class Blocks {
  public:
   /// \p n_halvings: at most 6; there are 2^n_halvings blocks. \p share: in (0, 1). A different share gives different planes everywhere.
@@ -36,7 +37,7 @@ class Blocks {
     std::size_t axis = 0;
     double at = 0.0;
   };
-  std::vector<Plane> planes_;  ///< the planes that divide the two sides of plane i are 2 i + 1 and 2 i + 2
+  std::vector<Plane> planes_;  ///< binary tree: the two sides of plane i are divided by planes 2 i + 1 and 2 i + 2
   std::vector<Block> blocks_;
 };
 

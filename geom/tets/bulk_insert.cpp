@@ -13,10 +13,11 @@ namespace sterna::tets {
 namespace {
 
 constexpr int k_most_block_halvings = 6;
-/// Fractions of the lower parts, pass after pass: the planes move, so most seeds that they blocked are inside a block in the next pass.
+/// Fractions of the points in the lower parts, one for each pass. The planes differ from pass to pass, so most seeds that a plane blocked are inside a block in
+/// the next pass.
 constexpr std::array<double, 3> k_shares = {0.5, 0.4, 0.6};
-constexpr std::size_t k_block_seeds = 4096;  ///< minimum mean number per block
-/// New slots of a block per seed: a point adds six and a half tetrahedra in the mean, and not every seed is inserted.
+constexpr std::size_t k_block_seeds = 4096;  ///< smallest mean number of seeds per block
+/// New slots of a block per seed. A point adds six and a half tetrahedra in the mean, but not every seed is inserted.
 constexpr std::size_t k_places_per_seed = 3;
 constexpr std::size_t k_more_places = 256;
 constexpr std::size_t k_stop_seeds = 4096;  ///< seeds between two checks of the stop token
@@ -95,7 +96,7 @@ void BulkInserter::make_room(std::size_t n_places) {
                  .attempted = "refining tetrahedra",
                  .problem = std::to_string(n_places) + " tetrahedra, limit " + std::to_string(k_most_tets - 1),
                  .hint = "use larger sizes: a size or a source is very small in a large region"});
-  if (n_places > mesh_.nodes.capacity()) reserve(n_places + n_places / 4);  // not doubled, to save memory
+  if (n_places > mesh_.nodes.capacity()) reserve(n_places + n_places / 4);  // less than doubled, to save memory
   mesh_.nodes.resize(n_places, {k_none, k_none, k_none, k_none});
   mesh_.neighbours.resize(n_places, {k_none, k_none, k_none, k_none});
   mark_.resize(n_places, 0);
@@ -103,7 +104,7 @@ void BulkInserter::make_room(std::size_t n_places) {
   is_changed_.resize(n_places / k_chunk + 1, 0);
 }
 
-/// Distributes the free slots: those of former tetrahedra to their block, so that walks from them start nearby; the others in equal parts.
+/// Distributes the free slots. Those of former tetrahedra go to their block, so that walks from them start nearby; the others are divided into equal parts.
 std::vector<std::vector<std::uint32_t>> BulkInserter::dealt_out(const Blocks& blocks, const RunContext& context) {
   std::vector<std::vector<std::uint32_t>> free(blocks.size());
   if (blocks.size() == 1) {
@@ -140,15 +141,14 @@ std::vector<std::uint32_t> BulkInserter::run_pass(std::span<const Seed> seeds, s
     const std::size_t block = blocks.find(seed.position);
     starts[i] = {static_cast<std::uint8_t>(block), seed.start < mesh_.nodes.size() && mesh_.nodes[seed.start][3] != k_none && is_in(seed.start, blocks[block])};
   });
-  std::vector<std::vector<std::uint32_t>> own(n_blocks);  // indices in the order
+  std::vector<std::vector<std::uint32_t>> own(n_blocks);  // positions in `order`, by block
   for (std::size_t i = 0; i < order.size(); ++i) own[starts[i].block].push_back(static_cast<std::uint32_t>(i));
 
   std::vector<std::vector<std::uint32_t>> free = dealt_out(blocks, context);
   std::size_t n_places = mesh_.nodes.size();
   std::vector<std::uint32_t> first_new(n_blocks + 1);
   for (std::size_t block = 0; block < n_blocks; ++block) {
-    const std::size_t wanted =
-        k_places_per_seed * own[block].size() + (n_blocks > 1 ? k_more_places : 2 * most_effort_ + 4);  // one block: enough for any point
+    const std::size_t wanted = k_places_per_seed * own[block].size() + (n_blocks > 1 ? k_more_places : 2 * most_effort_ + 4);  // one block: slots for any point
     first_new[block] = static_cast<std::uint32_t>(n_places);
     if (wanted > free[block].size()) n_places += wanted - free[block].size();
   }

@@ -1,4 +1,4 @@
-// Inserts many points into a tetrahedral mesh at once, in parallel in blocks along the curve: same mesh for any number of threads.
+// Inserts many points into a tetrahedral mesh at once, in parallel in blocks along the curve. The mesh is the same for any number of threads.
 #pragma once
 
 #include <cstdint>
@@ -16,7 +16,7 @@ namespace sterna::tets {
 /// A point that is to be inserted.
 struct Seed {
   Vec3 position;
-  std::uint32_t start = 0;  ///< a tetrahedron near to it
+  std::uint32_t start = 0;  ///< a tetrahedron near the point
   Room room;
 };
 
@@ -24,7 +24,7 @@ struct Seed {
 class BulkInserter {
  public:
   /// \post the mesh is unchanged except for the order of corners within tetrahedra
-  /// \p n_corners: the number of boundary points, which come first, for Room::to_corners
+  /// \p n_corners: number of boundary points, which come first; Room::to_corners applies to them
   /// \p most_effort: as InsertTarget
   explicit BulkInserter(TetMesh& mesh, const RunContext& context, std::uint32_t n_corners = 0, std::size_t most_effort = k_largest_cavity);
 
@@ -45,7 +45,7 @@ class BulkInserter {
   /// Marks of each slot for the caller's use, 0 for each new tetrahedron. Slots without tetrahedron may have any value.
   std::vector<std::uint8_t>& state() { return state_; }
   const std::vector<std::uint8_t>& state() const { return state_; }
-  /// For each chunk of k_chunk slots: may contain new tetrahedra; reset by the caller. Initially set for all.
+  /// One flag for each chunk of k_chunk slots: true if the chunk may contain new tetrahedra. All flags are true at first; the caller resets them.
   std::vector<std::uint8_t>& is_changed() { return is_changed_; }
   std::int64_t n_serial() const { return n_serial_; }  ///< seeds that no block could insert; for reports
 

@@ -40,15 +40,15 @@ Curve::Curve(std::span<const Vec3> points) {
   cells_per_metre_ = edge > 0.0 && edge < std::numeric_limits<double>::infinity() ? (1 << k_curve_levels) / edge : 0.0;
 }
 
-/// Computes the key level by level: the octant of the cube in Gray order, then rotation and reflection of the cube so that the next level's path begins where
-/// this one ended (bit operations: Skilling 2004).
+/// Computes the key level by level. The octant of the cube gives the next digits in Gray order. Then the cube is rotated and reflected so that the path of the
+/// next level begins where this one ended (bit operations: Skilling 2004).
 std::uint64_t Curve::key(const Vec3& p) const {
   std::array<std::uint32_t, 3> x;
   for (std::size_t axis = 0; axis < 3; ++axis)
     x[axis] = static_cast<std::uint32_t>(std::clamp((p[axis] - origin_[axis]) * cells_per_metre_, 0.0, static_cast<double>((1u << k_curve_levels) - 1)));
   for (int level = k_curve_levels - 1; level > 0; --level) {
     const std::uint32_t below = (1u << level) - 1;
-    for (std::size_t axis = 0; axis < 3; ++axis) {  // reflected if the bit is set, else rotated; without branches
+    for (std::size_t axis = 0; axis < 3; ++axis) {  // the cube is reflected if the bit is set, else rotated; without branches
       const std::uint32_t is_set = 0u - (x[axis] >> level & 1u);
       const std::uint32_t swapped = (x[0] ^ x[axis]) & below & ~is_set;
       x[axis] ^= swapped;
@@ -57,7 +57,7 @@ std::uint64_t Curve::key(const Vec3& p) const {
   }
   x[1] ^= x[0];
   x[2] ^= x[1];
-  std::uint32_t gray = x[2] >> 1;  // for each bit: parity of the bits above it
+  std::uint32_t gray = x[2] >> 1;  // parity of the higher bits, for each bit
   for (const int shift : {1, 2, 4, 8, 16}) gray ^= gray >> shift;
   return spread(x[0] ^ gray) << 2 | spread(x[1] ^ gray) << 1 | spread(x[2] ^ gray);
 }

@@ -19,7 +19,7 @@ FacetIndex::FacetIndex(std::span<const Facet> facets, std::size_t n_points, cons
     at_point_[next[f[0]]++] = {f[1], f[2], i};
   }
 
-  // Store each edge of a facet at its lower corner, then remove duplicates of edges shared by two facets.
+  // Stores each edge of a facet at its lower corner, then removes duplicates of edges that two facets share.
   std::vector<std::uint32_t> first(n_points + 1, 0);
   const auto each_edge = [&](const auto& f) {
     for (const Facet& corners : facets)

@@ -14,12 +14,12 @@ namespace sterna::tets {
 using Facet = std::array<std::uint32_t, 3>;
 using Edge = std::array<std::uint32_t, 2>;
 
-/// Edges in ascending order of their lower corner, then of the other; facets by their number.
+/// Edges and facets by number. Edges are in ascending order of their lower corner, then of the other.
 class FacetIndex {
  public:
   static constexpr std::uint32_t k_missing = 0xffffffffu;
 
-  /// \pre corner indices below n_points, three different ones
+  /// \pre corner indices are below n_points; the three corners of a facet differ
   FacetIndex(std::span<const Facet> facets, std::size_t n_points, const RunContext& context);
 
   std::span<const Facet> facets() const { return facets_; }

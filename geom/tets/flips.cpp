@@ -1,5 +1,5 @@
-// Why positive tetrahedra with the same hull fill the same region: their signed volumes cover each point of it as often as the old ones did, once, and none
-// counts negatively.
+// Why positive tetrahedra with the same hull fill the same region: their signed volumes cover each point of it as often as the old tetrahedra did, that is
+// once, and no volume counts negatively.
 
 #include "geom/tets/flips.h"
 
@@ -12,15 +12,15 @@
 namespace sterna::tets {
 namespace {
 
-/// Larger rings are not processed: the effort grows with the cube.
+/// Larger rings are not processed, because the effort grows with the cube of their size.
 constexpr std::size_t k_largest_ring = 60;
 /// Limit for the ring of an edge that only obstructs another one.
 constexpr std::size_t k_largest_other_ring = 24;
-/// Limit of the length costs of all diagonals of a ring together: less than the smallest of the other costs.
+/// Upper limit of the sum of the length costs of all diagonals of a ring. It is less than the smallest of the other costs.
 constexpr double k_length_cost = 0.5;
-/// Number of edges that are tried for the removal of one.
+/// Largest number of edges that are tried in order to remove one edge.
 constexpr int k_most_effort = 400;
-/// Limit of tetrahedra that are replaced by a new point.
+/// Largest number of tetrahedra that are replaced by a new point.
 constexpr std::size_t k_most_cavity = 200;
 constexpr int k_most_walk = 2000;  ///< steps of the walk to a new point
 
@@ -136,7 +136,7 @@ bool Flips::replace(std::span<const std::uint32_t> gone, std::span<const Corners
       sides_.push_back({sorted(mesh_.nodes[t], corner), n, true});
     }
   }
-  // Pairs of faces; the new tetrahedra are first numbered as in the list.
+  // Pairs of faces. The new tetrahedra are first numbered by their position in the list.
   std::vector<std::array<std::uint32_t, 4>> links(made.size(), {k_none, k_none, k_none, k_none});
   std::vector<std::array<bool, 4>> is_outer(made.size(), std::array<bool, 4>{});
   for (std::uint32_t i = 0; i < made.size(); ++i) {
@@ -160,7 +160,7 @@ bool Flips::replace(std::span<const std::uint32_t> gone, std::span<const Corners
   for (const std::uint32_t t : gone) save(t);
   while (places.size() < made.size()) {
     const auto t = static_cast<std::uint32_t>(mesh_.nodes.size());
-    // Saved before it exists, so that undo removes it.
+    // The slot is saved before it exists, so that undo removes it.
     journal_.push_back({t, {k_none, k_none, k_none, k_none}, {k_none, k_none, k_none, k_none}, t});
     mesh_.nodes.push_back({k_none, k_none, k_none, k_none});
     mesh_.neighbours.push_back({k_none, k_none, k_none, k_none});
@@ -198,8 +198,8 @@ bool Flips::flip_face(std::uint32_t face) {
   return replace(std::array{t, n / 4}, made);
 }
 
-/// Finds the best triangulation of the ring's polygon, each triangle being a tetrahedron with p and one with q: the lowest cost between any two corners follows
-/// from those of shorter pieces (Klincsek 1980; Shewchuk 2002 for rings).
+/// Finds the best triangulation of the ring's polygon. Each triangle forms a tetrahedron with p and one with q. The lowest cost between any two corners follows
+/// from the costs of shorter pieces (Klincsek 1980; Shewchuk 2002 for rings).
 bool Flips::fill_ring(std::uint32_t p, std::uint32_t q, const Ring& ring, const FlipCosts& costs) {
   const std::size_t n = ring.vertices.size();
   if (n < 3) return false;
@@ -297,7 +297,8 @@ bool Flips::remove_edge(std::uint32_t p, std::uint32_t q, int depth, const FlipC
   return is_gone;
 }
 
-/// Returns a tetrahedron of the cavity, not the first, at a required edge that is not on the cavity's hull; k_none if there is no such edge.
+/// Returns a tetrahedron of the cavity at a required edge that is not on the cavity's hull, but not the cavity's first tetrahedron; k_none if there is no such
+/// edge.
 std::uint32_t Flips::tet_around_lost_edge(std::span<const std::uint32_t> cavity, std::span<const Facet> hull) const {
   for (const std::uint32_t t : cavity) {
     const Corners& v = mesh_.nodes[t];
@@ -335,8 +336,8 @@ bool Flips::add_point(const Vec3& position, std::uint32_t start) {
   mesh_.points.push_back(position);
   tet_at_.push_back(k_none);
 
-  // Collect the tetrahedra whose spheres contain the point, but not behind required facets; remove some until all faces are visible and no required edge is
-  // lost.
+  // Collect the tetrahedra whose spheres contain the point, except those behind required facets. Then remove some of them until all faces are visible and no
+  // required edge is lost.
   std::vector<std::uint32_t> cavity = {base};
   std::vector<std::uint32_t> barred;
   const auto is_in = [](const std::vector<std::uint32_t>& list, std::uint32_t t) { return std::ranges::find(list, t) != list.end(); };

@@ -1,4 +1,4 @@
-// Replaces groups of tetrahedra: flips of faces and edges that keep every tetrahedron positive and every required edge and facet, with undo.
+// Replaces groups of tetrahedra by flips of faces and edges, with undo. The flips keep every tetrahedron positive, and keep every required edge and facet.
 #pragma once
 
 #include <cstdint>
@@ -16,7 +16,7 @@ struct Ring {
   std::vector<std::uint32_t> tets, vertices;
 };
 
-/// Penalties of new elements: a number for an edge or a face, larger is worse; 0 is good. May be empty.
+/// Penalties of new edges and faces. Larger numbers are worse, 0 is good. The functions may be empty.
 struct FlipCosts {
   std::function<int(std::uint32_t, std::uint32_t)> edge;
   std::function<int(std::uint32_t, std::uint32_t, std::uint32_t)> face;
@@ -41,12 +41,12 @@ class Flips {
   bool find_ring(std::uint32_t p, std::uint32_t q, Ring& ring);
   bool has_facet(std::uint32_t a, std::uint32_t b, std::uint32_t c);
 
-  /// Replaces a face by the edge through its two neighbours (2-3 flip). Returns false if that gives a flat or inverted tetrahedron, for a required facet, and
-  /// on the hull. \p face: 4 tet + corner
+  /// Replaces a face by the edge through its two neighbours (2-3 flip). Returns false if the result would contain a flat or inverted tetrahedron, and for
+  /// required facets and faces on the hull. \p face: 4 tet + corner
   bool flip_face(std::uint32_t face);
-  /// Retetrahedralises the ring around an edge without that edge, choosing the way with positive tetrahedra of lowest cost. If there is none and depth is above
-  /// 0, edges from p or q to the ring that prevent it are removed first, in the same way. Returns false for required edges, and on the hull.
-  /// \post false: all changes are undone
+  /// Retetrahedralises the ring around an edge without that edge, choosing the positive tetrahedra of lowest cost. If there are none and `depth` is above 0,
+  /// edges from p or q to the ring that prevent the removal are removed first, in the same way. Returns false for required edges and edges on the hull.
+  /// \post if the result is false, all changes are undone
   bool remove_edge(std::uint32_t p, std::uint32_t q, int depth, const FlipCosts& costs);
   /// Inserts a new point and connects it to the boundary of the tetrahedra whose spheres contain it, as far as required edges and facets allow. Returns false
   /// if it falls on a face. \p start: a tetrahedron near to it. The insertion cannot be undone.
@@ -66,7 +66,7 @@ class Flips {
   struct Entry {
     std::uint32_t tet;
     Corners nodes, neighbours;
-    std::uint32_t n_tets;  ///< number of slots before
+    std::uint32_t n_tets;  ///< number of slots before the change
   };
   struct Side {
     Facet corners;  ///< ascending

@@ -1,5 +1,5 @@
-// Why the filled cavity is a valid mesh: every face of the cavity is strictly visible from the point from inside (exact), so a ray from the point leaves the
-// cavity once and never returns. The cavity is therefore star-shaped around the point, whatever the mesh was before.
+// Why the filled cavity is a valid mesh: every face of the cavity is strictly visible from the point, from inside (exact). A ray from the point therefore
+// leaves the cavity once and never returns, so the cavity is star-shaped around the point, whatever the mesh was before.
 
 #include "geom/tets/insert.h"
 
@@ -12,7 +12,7 @@ namespace sterna::tets {
 namespace {
 
 constexpr std::uint8_t k_inside = 1, k_outside = 2, k_dropped = 3;
-/// A cavity has fallen apart if it loses more tetrahedra than this number, and more than this fraction, because they are not visible from the point.
+/// A cavity has fallen apart if the tetrahedra that it loses because they are not visible from the point are more than this number and more than this fraction.
 constexpr std::size_t k_least_loss = 30;
 constexpr double k_lost_share = 0.5;
 /// Limit of tetrahedra that are added to a cavity to keep it connected.
@@ -30,7 +30,7 @@ bool is_low(const Vec3& a, const Vec3& b, const Vec3& c, const Vec3& p, double h
 int perturbed_sphere_side(const TetMesh& mesh, const Corners& tet, std::uint32_t point) {
   const std::vector<Vec3>& p = mesh.points;
   if (const int side = sphere_side(p[tet[0]], p[tet[1]], p[tet[2]], p[tet[3]], p[point]); side != 0) return side;
-  // A lifted corner moves the sphere up on its own side of the opposite face: a point below it is then inside.
+  // A lifted corner moves the sphere upwards on that corner's side of the opposite face. A point below the sphere is then inside.
   std::array<std::uint32_t, 5> order = {tet[0], tet[1], tet[2], tet[3], point};
   std::ranges::sort(order, std::greater());
   for (const std::uint32_t highest : order) {
@@ -75,7 +75,7 @@ std::uint32_t Inserter::locate(const Vec3& p, std::uint32_t start, Insertion& wh
     std::uint32_t next = t;
     bool is_barred = false;
     for (std::uint32_t k = 0; k < 4; ++k) {
-      const std::uint32_t i = (k + static_cast<std::uint32_t>(step)) % 4;  // a different first face in each step: prevents short cycles
+      const std::uint32_t i = (k + static_cast<std::uint32_t>(step)) % 4;  // start with a different face in each step, which prevents short cycles
       if (n[i] != k_none && n[i] / 4 == from) continue;
       if (orientation(mesh_.points[v[k_face[i][0]]], mesh_.points[v[k_face[i][1]]], mesh_.points[v[k_face[i][2]]], p) >= 0) continue;
       if (n[i] == k_none) {
@@ -153,9 +153,9 @@ void Inserter::reach(std::uint32_t base) {
   cavity_ = std::move(reached);
 }
 
-/// Makes every face of the cavity visible from the point. If a face is not, adds the tetrahedron behind it, up to a limit; else removes the one before it. In a
-/// mesh that is far from Delaunay, such as after flips of the recovery, each removed tetrahedron obstructs others: a single one can cost a cavity of a
-/// thousand, and the remaining tetrahedra are flat and long and obstruct the next point.
+/// Makes every face of the cavity visible from the point. If a face is not visible, the tetrahedron behind it is added, up to a limit; otherwise the
+/// tetrahedron in front of it is removed. In a mesh that is far from Delaunay, such as after flips of the recovery, each removed tetrahedron obstructs others.
+/// A single one can cost a cavity of a thousand tetrahedra, and the remaining ones are flat and long and obstruct the next point.
 Insertion Inserter::make_visible(const Vec3& p, std::uint32_t base, const Room& room, int most_grown) {
   int n_grown = 0;
   for (;;) {
@@ -208,7 +208,7 @@ void Inserter::link(std::uint32_t a, std::uint32_t b, std::uint32_t face) {
 
 /// Creates one tetrahedron on each face of the cavity.
 void Inserter::fill(std::uint32_t point) {
-  if (2 * faces_.size() > edges_.size() / 2) edges_.assign(8 * faces_.size() | 1023, {});  // rounded up to a power of two below
+  if (2 * faces_.size() > edges_.size() / 2) edges_.assign(8 * faces_.size() | 1023, {});  // the following lines round this size up to a power of two
   if ((edges_.size() & (edges_.size() - 1)) != 0) {
     std::size_t size = 1024;
     while (size < edges_.size()) size *= 2;
@@ -235,7 +235,7 @@ void Inserter::fill(std::uint32_t point) {
     mesh_.neighbours[t] = {k_none, k_none, k_none, face.outer};
     target_.mark[t] = 0;
     target_.state[t] = 0;
-    std::atomic_ref(target_.is_changed[t / k_chunk]).store(1, std::memory_order_relaxed);  // chunks contain slots of several blocks
+    std::atomic_ref(target_.is_changed[t / k_chunk]).store(1, std::memory_order_relaxed);  // several blocks may share a chunk
     if (face.outer != k_none) mesh_.neighbours[face.outer / 4][face.outer % 4] = 4 * t + 3;
     link(face.nodes[1], face.nodes[2], 4 * t);
     link(face.nodes[0], face.nodes[2], 4 * t + 1);

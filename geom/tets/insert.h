@@ -1,5 +1,5 @@
-// Inserts one point into a tetrahedral mesh: the Delaunay cavity around it, as far as it is visible within the boundary, is refilled from the point (Bowyer
-// 1981, Watson 1981).
+// Inserts one point into a tetrahedral mesh. The Delaunay cavity around the point, as far as it is visible within the boundary, is filled with tetrahedra at
+// the point (Bowyer 1981, Watson 1981).
 #pragma once
 
 #include <array>
@@ -16,7 +16,7 @@ namespace sterna::tets {
 /// off the paraboloid, then the next, so every set of points has a unique Delaunay triangulation (Devillers and Teillaud 2003). Never 0.
 int perturbed_sphere_side(const TetMesh& mesh, const Corners& tet, std::uint32_t point);
 
-/// Limit in tetrahedra; beyond strips of sliver triangles each point would see all others.
+/// Largest number of tetrahedra in a cavity. Without this limit, each point beyond a strip of sliver triangles would see all others.
 inline constexpr std::size_t k_largest_cavity = 4000;
 inline constexpr std::size_t k_chunk = 1 << 13;  ///< slots of tetrahedra that are processed together, or skipped if nothing has changed
 
@@ -24,10 +24,10 @@ enum class Insertion : std::uint8_t {
   done,
   outside,     ///< the path to the point is blocked by the boundary
   too_near,    ///< a point of the mesh is nearer than allowed
-  beaten,      ///< as too_near, and that point was inserted by the same call of BulkInserter
+  beaten,      ///< a point inserted by the same call of BulkInserter is nearer than allowed
   encroaches,  ///< the point is too low above a boundary triangle
-  no_cavity,   ///< the tetrahedra around it cannot be replaced by positive ones
-  foreign,     ///< another block's tetrahedra are affected, or there are no free slots: to be retried later
+  no_cavity,   ///< the tetrahedra around the point cannot be replaced by positive ones
+  foreign,     ///< tetrahedra of another block are affected, or there are no free slots: to be retried later
 };
 
 /// Data that insertions of a whole pass work on. Each slot belongs to the block that contains the last corner of its tetrahedron, or of its former tetrahedron.
@@ -44,16 +44,16 @@ struct InsertTarget {
 
 /// Minimum distances of a new point.
 struct Room {
-  double to_points = 0.0;    ///< m; to any point of the mesh except those of the boundary
-  double to_corners = 0.0;   ///< m; to points of the boundary
-  double to_boundary = 0.0;  ///< m; above a boundary triangle that it stands over
+  double to_points = 0.0;    ///< m; smallest distance to points of the mesh that are not on the boundary
+  double to_corners = 0.0;   ///< m; smallest distance to points of the boundary
+  double to_boundary = 0.0;  ///< m; smallest height above a boundary triangle if the point is over it
 };
 
 /// Inserts points for one block. Reuses its memory.
 class Inserter {
  public:
-  /// `free` and [`first_new`, `end_new`): slots in which this block may store new tetrahedra; `first_start`: start of walks for points without a better start,
-  /// or k_none.
+  /// \p free and [`first_new`, `end_new`): slots in which this block may store new tetrahedra. \p first_start: start of walks for points without a better
+  /// start, or k_none.
   Inserter(const InsertTarget& target, const Block& block, std::vector<std::uint32_t> free, std::uint32_t first_new, std::uint32_t end_new,
            std::uint32_t first_start)
       : target_(target), mesh_(target.mesh), block_(block), free_(std::move(free)), next_(first_new), end_(end_new), last_(first_start) {}
@@ -62,14 +62,14 @@ class Inserter {
   /// \post unless the result is done, the mesh is unchanged
   Insertion insert(std::uint32_t point, std::uint32_t start, const Room& room);
 
-  /// Returns the unused slots: those given back, followed by the unused new ones, ascending.
+  /// Returns the unused slots, first those given back, then the unused new ones, ascending.
   std::vector<std::uint32_t> take_free();
 
  private:
   struct CavityFace {
     std::array<std::uint32_t, 3> nodes;  ///< the cavity is on the side to which the normal points
-    std::uint32_t outer;                 ///< face of the tetrahedron behind it, or k_none
-    std::uint32_t tet;                   ///< tetrahedron of the cavity
+    std::uint32_t outer;                 ///< this face in the tetrahedron behind it (4 tet + corner), or k_none
+    std::uint32_t tet;                   ///< tetrahedron of the cavity that has the face
   };
   struct EdgeEntry {
     std::uint64_t edge = 0;

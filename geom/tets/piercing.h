@@ -21,11 +21,11 @@ struct Crossing {
 /// \return nothing if the segment passes through another point (exactly)
 std::optional<std::vector<Crossing>> crossings(Flips& flips, std::uint32_t a, std::uint32_t b);
 
-/// Returns the edges of the mesh that pierce a facet whose own edges all exist.
-/// \return nothing where a point lies on the facet (exactly); empty where the mesh has the facet
+/// Returns the edges of the mesh that pierce a facet whose own edges all exist; an empty list if the mesh has the facet.
+/// \return nothing if a point lies on the facet (exactly)
 std::optional<std::vector<Edge>> piercing_edges(Flips& flips, const Facet& facet);
 
-/// Returns true if a segment passes through a triangle, both without their ends and corners (exact; touching does not count).
+/// Returns true if a segment passes through a triangle. Ends of the segment and corners of the triangle do not count, nor does touching (exact).
 bool pierces(const TetMesh& mesh, std::uint32_t a, std::uint32_t b, std::uint32_t u, std::uint32_t v, std::uint32_t w);
 
 }  // namespace sterna::tets

@@ -19,10 +19,11 @@ namespace {
 
 /// Width of the box relative to that of the points: its corners must be far from all points.
 constexpr double k_box_factor = 8.0;
-/// Points of the first round; each following round has this multiple of the points already inserted.
+/// Number of points in the first round. Each following round has k_round_factor times as many points as were inserted before.
 constexpr std::size_t k_first_points = 64, k_round_factor = 8;
 constexpr int k_most_tries = 4;  ///< attempts per point
-/// A point far from all others sees the whole hull: the corners of a room around an aircraft of 300 000 points have cavities of more than 4000 tetrahedra.
+/// Largest effort for Delaunay insertion. A point far from all others sees the whole hull: the corners of a room around an aircraft of 300 000 points have
+/// cavities of more than 4000 tetrahedra.
 constexpr std::size_t k_delaunay_effort = std::size_t{1} << 18;
 /// Recursion limit of remove_edge().
 constexpr int k_most_depth = 3;
@@ -30,7 +31,7 @@ constexpr int k_most_points = 3;  ///< points in the volume per edge or facet
 constexpr int k_most_passes = 6;  ///< passes over the missing entities, not counting the first one
 /// Distance of new points from a facet's plane, relative to the length of the crossing entities.
 constexpr double k_beside = 0.3;
-/// Displacement towards an end of the other edge, as a fraction of the way.
+/// Displacement of a new point from a crossing towards an end of the other edge, as a fraction of the way.
 constexpr double k_aside = 0.1;
 /// Number of halvings of the distance if the surrounding faces are not visible.
 constexpr int k_most_edge_halvings = 30;
@@ -60,7 +61,7 @@ TetMesh delaunay(std::span<const Vec3> points, RecoverFailure& failure, const Ru
   std::vector<std::pair<std::uint64_t, std::uint32_t>> order(n);
   parallel_for(context, n, [&](std::size_t i) { order[i] = {shuffled(i), static_cast<std::uint32_t>(i)}; });
   parallel_sort(context, order, [](const auto& a, const auto& b) { return a < b; });
-  // Points are inserted in this order, after the corners; `number` maps each to its given index, the corners being the last.
+  // Points are inserted in this order, after the corners. `number` maps each of them to its given index; the corners come last in the given order.
   std::vector<std::uint32_t> number(corners.size());
   std::iota(number.begin(), number.end(), static_cast<std::uint32_t>(n));
   {
@@ -131,7 +132,7 @@ class Recoverer {
   bool help_facet(const Facet& facet, int n_before, RecoverReport& report);
   template <class Make, class Help>
   void make_all(std::vector<std::uint32_t>& list, const Make& make, const Help& help);
-  /// Keeps the changes by `flip` if `count` decreases.
+  /// Makes the changes by `flip`, and keeps them if `count` decreases.
   template <class Flip, class Count>
   bool try_flip(const Flip& flip, const Count& count, std::size_t n_before);
 
@@ -202,14 +203,14 @@ Recoverer::Made Recoverer::make_facet(const Facet& facet, int depth) {
   }
 }
 
-/// Returns a length for new points: the shorter of two crossing lengths, then gradually closer to the width of the region that they span, which is much smaller
-/// for slivers.
+/// Returns a length for new points. It is the shorter of two crossing lengths first; in later tries it approaches the width of the region that the crossings
+/// span, which is much smaller for slivers.
 double between(double a, double b, double area, int n_before) {
   const double width = area / std::max(a, b), share = std::min(1.0, n_before / static_cast<double>(k_most_points - 1));
   return std::min(a, b) * std::pow(std::min(1.0, width / std::min(a, b)), share);
 }
 
-/// Adds points on both sides of a plane, at a distance relative to the local size: connections across the plane now end at these points.
+/// Adds a point on each side of a plane, at a distance relative to the local size. Connections across the plane then end at these points.
 bool Recoverer::add_points_beside(const Vec3& at, const Vec3& normal, double length, std::uint32_t start, RecoverReport& report) {
   bool is_done = false;
   for (const double side : {k_beside, -k_beside}) {
@@ -222,12 +223,12 @@ bool Recoverer::add_points_beside(const Vec3& at, const Vec3& normal, double len
   return is_done;
 }
 
-/// Adds a point on each side where the edge crosses one other edge in its plane and nothing else. The points are so near that the whole ring around the other
-/// edge is visible from them; that edge can then always be replaced.
+/// Adds points for an edge that crosses one other edge in its plane and nothing else, one on each side. The points are so near that the whole ring around the
+/// other edge is visible from them; that edge can then always be replaced.
 bool Recoverer::add_points_in_ring(const Edge& edge, const Edge& across, const Vec3& at, const Vec3& normal, double length, RecoverReport& report) {
   const auto [p, q] = across;
   const Vec3 from = mesh_.points[p];
-  const Vec3 foot = at + k_aside * (from - at);  // not at the crossing: the edge between both points would be as good as the required one
+  const Vec3 foot = at + k_aside * (from - at);  // off the crossing: otherwise the edge between both points would be as good as the required one
   const double side = dot(cross(mesh_.points[q] - from, mesh_.points[edge[0]] - from), normal) > 0.0 ? 1.0 : -1.0;
   for (const bool is_first : {true, false}) {
     const Edge ends = is_first ? edge : Edge{edge[1], edge[0]};
@@ -279,7 +280,7 @@ bool Recoverer::help_facet(const Facet& facet, int n_before, RecoverReport& repo
                            flips_.tet_with_edge(e[0], e[1]), report);
 }
 
-/// Leaves in the list the entities that could not be recovered. Some become possible when others exist.
+/// Recovers the entities of the list and leaves those that could not be recovered. Some become possible when others exist.
 template <class Make, class Help>
 void Recoverer::make_all(std::vector<std::uint32_t>& list, const Make& make, const Help& help) {
   std::size_t n_tries = 0;
@@ -337,7 +338,7 @@ void Recoverer::run(RecoverReport& report, RecoverFailure& failure) {
 
 /// Keeps the tetrahedra on the side of the facets to which their normals point. Returns false if that is not a single side.
 bool keep_domain(TetMesh& mesh, const FacetIndex& wanted, std::size_t n_facets, std::size_t n_points, const RunContext& context) {
-  // First make facets faces without neighbour; the inside is then grown from the inner side of each.
+  // First give facets no neighbour on either side. Then let the inside grow from the inner side of each facet.
   constexpr std::uint8_t k_outside = 0, k_inside = 1;
   std::vector<std::uint8_t> side(mesh.nodes.size(), k_outside);
   struct Cut {

@@ -15,33 +15,34 @@
 namespace sterna::tets {
 namespace {
 
-// Lengths below are in units of the target edge length times this factor: the geometric mean of the edges then equals the target length (measured in a field of
-// constant size).
+// The lengths below are in units of the target edge length times this factor. With this factor the geometric mean of the edges equals the target length
+// (measured in a field of constant size).
 constexpr double k_length_factor = 1.07;
-/// Edge length for a point in front of a face.
+/// Length of the edges from a new point to the face in front of which it lies.
 constexpr double k_front_edge = 0.85;
 /// Circumradius above which a tetrahedron is refined. A regular tetrahedron has 0.61.
 constexpr double k_radius_limit = 0.76;
 /// Minimum distance between two points of the volume.
 constexpr double k_least_distance = 0.7;
-/// Minimum distance between a point of the volume and one of the boundary: for narrow triangles.
+/// Minimum distance between a point of the volume and a point of the boundary, where triangles may be narrow.
 constexpr double k_corner_distance = 0.6;
 /// Minimum height of a point in front of a face.
 constexpr double k_least_height = 0.6;
 /// Minimum height of a point above a boundary face.
 constexpr double k_boundary_height = 0.4;
-/// If the circumcentre is farther than the front's point by at most this factor, it is used instead: a second point would not fit behind.
+/// If the circumcentre is farther than the front's point by at most this factor, it is used instead, because a second point would not fit behind the front's
+/// point.
 constexpr double k_merge = 1.2;
 /// Number of proposals along the curve that are thinned out together; conflicts between two such groups are detected at insertion.
 constexpr std::size_t k_thinned_together = 1 << 15;
 constexpr int k_most_rounds = 1000;
 constexpr double k_share_expected = 0.75;  ///< ratio of the final number of tetrahedra to the number for which memory is reserved initially
 
-// States of tetrahedra; from k_waiting on: the number of rejected proposals.
+// States of tetrahedra. From k_waiting on, a state counts rejected proposals.
 constexpr std::uint8_t k_unseen = 0, k_right = 1, k_given_up = 2, k_waiting = 3;
 constexpr int k_most_proposals = 3;
 
-/// Far tetrahedra: those that could not be split, whose edge in the volume and circumradius exceed these multiples of the target length.
+/// A tetrahedron that could not be split is far if its edge in the volume and its circumradius exceed these multiples of the target length.
 constexpr double k_far_edge = 5.0, k_far_radius = 20.0;
 
 struct Sphere {
@@ -191,9 +192,9 @@ std::int64_t Refiner::count_far() const {
 /// Returns the point in front of a face, between the centre of its circle and that of the sphere.
 std::optional<Refiner::Place> Refiner::in_front(std::size_t face, const std::array<Vec3, 4>& p, const Sphere& sphere) const {
   const Base base = base_of(p[k_face[face][0]], p[k_face[face][1]], p[k_face[face][2]]);
-  // Approximate position of the new point: at the height of a regular tetrahedron above the face.
+  // Approximate position of the new point: above the face at the height of a regular tetrahedron.
   const double length = length_at(base.middle + std::numbers::sqrt2 * base.radius * base.normal), edge = k_front_edge * length;
-  if (base.radius > 0.95 * edge) {  // larger than the target here
+  if (base.radius > 0.95 * edge) {  // the face is larger than the target length here
     const Vec3 low = base.middle + k_least_height * edge * base.normal;
     return Place{low, length_at(low)};
   }
@@ -272,7 +273,8 @@ std::int64_t Refiner::round(bool needs_front) {
         for (const std::uint32_t i : thinned(proposed, std::span(order).subspan(begin, end - begin))) list.push_back(proposed[i]);
       },
       k_thinned_together);
-  // Count the proposals before the insertion: tetrahedra that still exist afterwards gained nothing. Proposals beaten by a point of this round do not count.
+  // Count the proposals before the insertion. A tetrahedron that still exists afterwards has a rejected proposal. Proposals that lost against a point of this
+  // round do not count.
   std::vector<std::uint8_t> before;
   for (const Seed& seed : seeds) {
     before.push_back(state[seed.start]);

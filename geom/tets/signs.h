@@ -11,7 +11,7 @@ namespace sterna::tets {
 
 /// Returns the sign of orient3d.
 inline int orientation(const Vec3& a, const Vec3& b, const Vec3& c, const Vec3& d) {
-  // Six terms of at most x y z, each with 8 roundings (exact::Bounded has the rule): 9 * 6 * 2^-53 covers them and the rounding of the bound.
+  // The determinant has six terms of at most x y z, each with 8 roundings (rule at exact::Bounded). 9 * 6 * 2^-53 covers them and the rounding of the bound.
   constexpr double k_bound = 6.1e-15;
   const Vec3 ab = b - a, ac = c - a, ad = d - a;
   const double x = std::max({std::abs(ab.x), std::abs(ac.x), std::abs(ad.x)});
@@ -25,7 +25,7 @@ inline int orientation(const Vec3& a, const Vec3& b, const Vec3& c, const Vec3& 
 
 /// Returns the sign of insphere.
 inline int sphere_side(const Vec3& a, const Vec3& b, const Vec3& c, const Vec3& d, const Vec3& e) {
-  // 4 * 6 terms of at most 3 m^2 x y z, each with 17 roundings: 72 * 18 * 2^-53.
+  // The determinant has 4 * 6 terms of at most 3 m^2 x y z, each with 17 roundings; the bound is 72 * 18 * 2^-53.
   constexpr double k_bound = 1.46e-13;
   const Vec3 pa = a - e, pb = b - e, pc = c - e, pd = d - e;
   const double x = std::max(std::max(std::abs(pa.x), std::abs(pb.x)), std::max(std::abs(pc.x), std::abs(pd.x)));

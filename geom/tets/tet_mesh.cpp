@@ -21,7 +21,7 @@ struct FaceAtNode {
   bool is_odd = false;     ///< the corners' order is an odd permutation of low, middle, high
 };
 
-/// Sorts the corners of a face in ascending order; returns true if that is an odd permutation.
+/// Sorts the corners of a face in ascending order; returns true if the sort is an odd permutation.
 bool sort_corners(std::array<std::uint32_t, 3>& v) {
   bool is_odd = false;
   const auto order = [&](std::size_t i, std::size_t j) {
@@ -71,9 +71,9 @@ void throw_if_any(const BadPlaces& bad, const TetMesh& mesh, const std::string& 
   throw Error(std::move(error));
 }
 
-/// Faces sorted by their lowest node: counting and scattering in fixed chunks.
+/// Faces sorted by their lowest node. They are counted and scattered in fixed chunks.
 struct FacesByNode {
-  std::vector<std::uint32_t> first;  ///< start of each node, and the end
+  std::vector<std::uint32_t> first;  ///< index of the first face of each node, and the end
   std::vector<std::uint32_t> faces;  ///< 4 tet + corner
 };
 

@@ -23,7 +23,7 @@ inline constexpr std::array<std::array<std::uint8_t, 3>, 4> k_face = {{{1, 3, 2}
 struct TetMesh {
   std::vector<Vec3> points;
   std::vector<Corners> nodes;       ///< nodes[t][0] == k_none: the slot of a removed tetrahedron
-  std::vector<Corners> neighbours;  ///< across the face opposite to each corner: 4 other + corner there; or k_none
+  std::vector<Corners> neighbours;  ///< across the face opposite to each corner: 4 * neighbour + the corner of the neighbour; or k_none
 
   bool is_alive(std::uint32_t t) const { return nodes[t][0] != k_none; }
 };

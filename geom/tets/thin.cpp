@@ -1,4 +1,4 @@
-// A hash grid for each power of two; its cells are at least as long as the distances there.
+// There is a hash grid for each power of two. Its cells are at least as long as the distances of that size.
 
 #include "geom/tets/thin.h"
 
@@ -29,7 +29,7 @@ std::vector<std::uint32_t> thinned(std::span<const Seed> seeds, std::span<const 
   std::vector<Cell> cells;  // cells of the kept seeds
   std::vector<std::uint32_t> next;
   const std::size_t last = std::bit_ceil(2 * order.size() + 1) - 1;
-  std::vector<std::uint32_t> heads(last + 1, k_none);  // by hash only: cells with the same hash share a list
+  std::vector<std::uint32_t> heads(last + 1, k_none);  // lists are found by hash only: cells with the same hash share a list
   for (const std::uint32_t i : order) {
     const Vec3& p = seeds[i].position;
     const double distance = seeds[i].room.to_points;

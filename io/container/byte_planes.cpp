@@ -9,7 +9,7 @@
 namespace sterna::io {
 namespace {
 
-constexpr std::size_t k_block = 16;  // values
+constexpr std::size_t k_block = 16;  // number of values
 using Register = char __attribute__((vector_size(k_block)));
 
 /// Shuffles a block of `Size` registers.

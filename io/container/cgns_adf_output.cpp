@@ -1,4 +1,4 @@
-// ADF output with libcgns (its layer cgio): the nodes in sequence, their values in blocks.
+// ADF output with libcgns (its layer cgio). Nodes are written in sequence, their values in blocks.
 #include <cgns_io.h>
 
 #include <array>

@@ -37,7 +37,7 @@ constexpr std::string_view cgns_condition(PatchKind kind) {
   return "UserDefined";
 }
 
-/// Node below a family that holds the full patch name where the name is not a valid CGNS node name.
+/// Name of a node below a family; it holds the full patch name if that is not a valid CGNS node name.
 inline constexpr std::string_view k_cgns_name_note = "PatchName";
 
 }  // namespace sterna::io

@@ -1,4 +1,4 @@
-// In HDF5 a node is a group with the attributes name, label, type, flags; its values are a dataset " data" with the extents reversed.
+// In HDF5 a node is a group with the attributes name, label, type and flags. Its values are a dataset " data" with the extents reversed.
 #include "io/container/cgns_output.h"
 
 #include <algorithm>
@@ -15,7 +15,7 @@ Hdf5OutputNode hdf5_node(const CgnsOutputNode& node) {
   group.attributes.push_back(text_attribute("name", node.name, k_cgns_name + 1));
   group.attributes.push_back(text_attribute("label", node.label, k_cgns_name + 1));
   group.attributes.push_back(text_attribute("type", node.has_data ? cgns_type_of(node.array.kind) : "MT", 3));
-  group.attributes.push_back({.name = "flags", .kind = NumberKind::i4, .extents = {1}, .bytes = std::string("\1\0\0\0", 4)});  // 1: extents are reversed
+  group.attributes.push_back({.name = "flags", .kind = NumberKind::i4, .extents = {1}, .bytes = std::string("\1\0\0\0", 4)});  // 1: the extents are reversed
   if (node.has_data) {
     Hdf5OutputNode data{.name = std::string(k_data_node), .is_dataset = true, .array = node.array};
     std::reverse(data.array.extents.begin(), data.array.extents.end());

@@ -1,5 +1,5 @@
-// CGNS nodes in HDF5: a group with the attributes name, label, type, flags; its values are in a dataset " data" with the extents reversed. adf_nodes.cpp maps
-// ADF to the same structure.
+// In HDF5 a CGNS node is a group with the attributes name, label, type and flags. Its values are in a dataset " data" with the extents reversed. adf_nodes.cpp
+// maps ADF to the same structure.
 #include "io/container/cgns_tree.h"
 
 #include <algorithm>

@@ -20,15 +20,15 @@ namespace {
 
 static_assert(std::endian::native == std::endian::little, "values are written as they are in memory");
 
-/// Signature in the style of PNG: detects files damaged by a transfer as text.
+/// Signature in the style of PNG. It detects files that were damaged by a transfer as text.
 constexpr std::string_view k_magic("\x89sterna\r\n\x1a\n\0\0\0\0\0", 16);
 constexpr std::uint32_t k_byte_order_mark = 0x01020304;
 constexpr std::size_t k_head_bytes = 64;
 constexpr std::size_t k_hashed_head_bytes = 56;
 constexpr std::uint8_t k_plain = 0;
-constexpr std::uint8_t k_lz4_planes = 1;               // LZ4 of the byte planes: all first bytes of the values, all second bytes, ...
-constexpr std::uint64_t k_max_chunk_bytes = 1u << 24;  // limit for the reader: writers stay below
-constexpr std::uint64_t k_lz4_expansion = 255;         // maximum expansion of a packed byte
+constexpr std::uint8_t k_lz4_planes = 1;               // LZ4 of the byte planes (all first bytes of the values, then all second bytes, and so on)
+constexpr std::uint64_t k_max_chunk_bytes = 1u << 24;  // limit for the reader; writers stay below it
+constexpr std::uint64_t k_lz4_expansion = 255;         // LZ4 expands a packed byte to at most this many bytes
 constexpr std::size_t k_longest_name = 255;
 /// A chunk that LZ4 does not shrink by a sixteenth is stored uncompressed: unpacking would take longer than reading.
 constexpr std::size_t k_gain = 16;
@@ -80,8 +80,8 @@ void ChunkedWriter::pack(std::string_view name, NumberType type, std::uint32_t n
         const std::uint64_t begin = c * per_chunk, end = std::min(begin + per_chunk, n_values);
         const std::size_t n_bytes = (end - begin) * size;
         const int bound = LZ4_compressBound(static_cast<int>(n_bytes));
-        char* const place =
-            out.reserve(static_cast<std::size_t>(bound) + 2 * n_bytes);  // planes and values come after it: the buffer is reused, so its pages stay allocated
+        char* const place = out.reserve(static_cast<std::size_t>(bound) + 2 * n_bytes);  // planes and values are in the same buffer behind the packed bytes;
+                                                                                         // the buffer is reused, so its pages stay allocated
         char* const planes = place + bound;
         const char* const values = find(begin, end, planes + n_bytes);
         gather_planes(values, end - begin, size, planes);

@@ -40,7 +40,7 @@ class SourceFile {
         return;
       }
     }
-    const FileBuffer buffer = load_file(path, context);  // unpacks, or reports the problem with the path
+    const FileBuffer buffer = load_file(path, context);  // unpacks the file, or reports the problem with the path
     head_ = buffer.text().substr(0, k_probed_head_bytes);
     block_ = std::make_unique<SharedBlock>("sterna unpacked file", 0, task);
     block_->append(std::as_bytes(std::span(buffer.bytes)));

@@ -18,11 +18,11 @@ bool is_netcdf(std::string_view bytes);  ///< the classic format or HDF5
 enum class ContainerFormat { hdf5, netcdf, cgns };  ///< cgns: HDF5 or ADF
 
 /// Reads the whole file except groups whose name or label (attribute "label") is in `left_out`. A gzipped file or a pipe is read through memory.
-/// Memory is proportional to the file size: contiguous arrays are no larger than the file, unpacked arrays in total at most wire::k_max_expansion times as
+/// Memory is proportional to the file size. Contiguous arrays are no larger than the file; unpacked arrays in total are at most wire::k_max_expansion times as
 /// large.
 /// \param helper_folder folder of sterna-read-container; empty = beside the program
-/// \throws Error file_not_found; file_malformed (path in the file, expectation; also if the library crashes or exceeds its limits); unsupported_format (links,
-/// filters, types; the helper is missing); cancelled.
+/// \throws Error file_not_found; file_malformed (with the path in the file and what was expected; also if the library crashes or exceeds its limits);
+/// unsupported_format (links, filters, types, or a missing helper); cancelled.
 ContainerImage read_container(const std::filesystem::path& path, ContainerFormat format, const std::vector<std::string>& left_out, const RunContext& context,
                               const std::string& helper_folder = {});
 

@@ -12,7 +12,7 @@ using wire::ImageHeader;
 using wire::NodeRecord;
 using wire::Role;
 
-/// Returns true if `where` is a valid location from the helper: a path, a variable or an attribute by name or number, or the whole file.
+/// Returns true if `where` is a valid location from the helper: a path, a variable or an attribute (by name or number), or the whole file.
 bool is_place(std::string_view where) {
   if (where.starts_with('/') || where == "the file" || where == "the head of the file") return true;
   for (const std::string_view begin : {"variable ", "attribute "})
@@ -21,7 +21,7 @@ bool is_place(std::string_view where) {
   return false;
 }
 
-/// The image in memory, with every access checked. An invalid image is a fault of the helper, not of the user, but only a file can have caused it.
+/// Reads the image in memory and checks every access. An invalid image is a fault of the helper, not of the user, but only a damaged file can have caused it.
 class ImageReader {
  public:
   ImageReader(std::span<const std::byte> bytes, const std::string& source) : bytes_(bytes), source_(source) {

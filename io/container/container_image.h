@@ -38,7 +38,7 @@ struct ContainerNode {
 class ContainerImage {
  public:
   /// Checks the image of a file named `source` completely, so that all arrays are views of `bytes`. `owner` keeps the bytes alive.
-  /// \throws Error file_malformed, unsupported_format: errors that the helper reports; also if `bytes` is not an image.
+  /// \throws Error file_malformed, unsupported_format for errors that the helper reports, and if `bytes` is not an image.
   ContainerImage(std::shared_ptr<const void> owner, std::span<const std::byte> bytes, std::string source);
 
   const std::string& source() const { return source_; }

@@ -1,8 +1,8 @@
 // Protocol between sterna and sterna-read-container. This header includes nothing of sterna except the kinds of numbers.
 //
-// Arguments: the library (hdf5, netcdf, adf), then the names and labels of groups to leave out. Descriptor 3: the file, read-only. Descriptor 4: the image, a
-// memfd. Image: ImageHeader; n_nodes NodeRecords, each after its parent, the root first; text_size bytes of text; values, each aligned to k_alignment.
-// With an outcome other than ok: the header and the text only.
+// The arguments are the library (hdf5, netcdf, adf), then the names and labels of groups to leave out. Descriptor 3 is the file, read-only. Descriptor 4 is the
+// image, a memfd. The image consists of an ImageHeader, n_nodes NodeRecords (each after its parent, the root first), text_size bytes of text, and the values,
+// each aligned to k_alignment. With an outcome other than ok it consists of the header and the text only.
 #pragma once
 
 #include <cstdint>
@@ -15,7 +15,7 @@ inline constexpr int k_file_fd = 3;
 inline constexpr int k_image_fd = 4;
 inline constexpr std::uint64_t k_image_magic = 0x3149544e43545353;  ///< "SSTCNTI1" in memory; the last digit is the version
 inline constexpr std::uint64_t k_alignment = 64;
-inline constexpr std::uint32_t k_max_rank = 12;   ///< extents of an array; the last is the string length in an array of strings
+inline constexpr std::uint32_t k_max_rank = 12;   ///< maximum number of extents of an array; the last one is the string length in an array of strings
 inline constexpr std::uint32_t k_max_depth = 64;  ///< depth of nested groups; the CGNS standard uses about 10
 /// Maximum ratio of unpacked size to file size, for chunks and repeated values. Meshes reach about 10.
 inline constexpr std::uint64_t k_max_expansion = 200;
@@ -55,7 +55,7 @@ enum class Role : std::uint8_t {
 enum class Trouble : std::uint8_t { none = 0, malformed = 1, unsupported = 2 };
 
 struct NodeRecord {
-  std::uint32_t parent = 0;  ///< own number for the root
+  std::uint32_t parent = 0;  ///< number of the parent; the root has its own number
   Role role = Role::group;
   Trouble trouble = Trouble::none;
   NumberKind kind = NumberKind::i4;

@@ -11,7 +11,7 @@
 namespace sterna::io {
 namespace {
 
-constexpr int k_deepest = 32;  // levels; a mesh has 5
+constexpr int k_deepest = 32;  // levels of nodes; a mesh has 5
 constexpr std::int32_t k_ffa_header_bytes = 32;
 constexpr std::string_view k_version_2 = "FFA-format-v2";
 constexpr std::size_t k_version_2_bytes = 32;
@@ -175,7 +175,7 @@ class FfaParser {
     const std::uint64_t n = node.n_values();
     if (version_ == 2) {
       const std::size_t at = bytes_.offset();
-      const auto count = bytes_.read<std::int64_t>("the number of values");  // of elements or of bytes: writers differ
+      const auto count = bytes_.read<std::int64_t>("the number of values");  // number of elements or of bytes: writers differ
       if (count != static_cast<std::int64_t>(n) && count != static_cast<std::int64_t>(n * size))
         throw_malformed(buffer_.source, "byte " + std::to_string(at),
                         "found " + std::to_string(count) + " as the number of values, expected " + std::to_string(n));

@@ -56,7 +56,7 @@ herr_t write(H5FD_t* file, H5FD_mem_t, hid_t, haddr_t offset, std::size_t n, con
   OpenFile& own = of(file);
   own.driver->attempt([&](AtomicFile& target) { target.put(offset, {static_cast<const char*>(bytes), n}); });
   own.end = std::max<haddr_t>(own.end, offset + n);
-  return 0;  // also after a failure: see Hdf5Driver
+  return 0;  // success even after a failure: see Hdf5Driver
 }
 
 herr_t truncate(H5FD_t* file, hid_t, hbool_t) {

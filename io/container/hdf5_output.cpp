@@ -1,4 +1,4 @@
-// Steps: create all groups and datasets (the structure is complete before the first value), write the values in slabs, close, sync and rename the file.
+// Steps: create all groups and datasets, so that the structure is complete before the first value; write the values in slabs; close, sync and rename the file.
 #include "io/container/hdf5_output.h"
 
 #include <hdf5.h>
@@ -99,7 +99,7 @@ class Hdf5Writer {
     if (status < 0) fail(file_, doing);
   }
 
-  /// Sets group properties: creation order tracked and indexed (CGNS lists children by it), no time stamps.
+  /// Sets group properties. The creation order is tracked and indexed, because CGNS lists children by it; no time stamps are stored.
   static void set_up_group(const AtomicFile& file, hid_t plist) {
     if (H5Pset_link_creation_order(plist, H5P_CRT_ORDER_TRACKED | H5P_CRT_ORDER_INDEXED) < 0 || H5Pset_obj_track_times(plist, false) < 0)
       fail(file, "creating the structure");

@@ -14,10 +14,10 @@ namespace sterna::io {
 struct Hdf5OutputAttribute {
   std::string name;
   NumberKind kind = NumberKind::text;
-  std::vector<std::uint64_t> extents;  ///< empty = a scalar; a string is a scalar of bytes.size()
+  std::vector<std::uint64_t> extents;  ///< empty for a scalar; a string is a scalar of bytes.size() bytes
   std::string bytes;                   ///< little endian
 };
-/// Returns a string attribute of `size` bytes, truncated or padded with NUL. Without a trailing NUL the string type is one that needs no terminator.
+/// Returns a string attribute of `size` bytes, truncated or padded with NUL. If no NUL is left at the end, the string type is one that needs no terminator.
 Hdf5OutputAttribute text_attribute(std::string name, std::string text, std::size_t size);
 
 /// A group (no array) or a dataset.
@@ -29,7 +29,7 @@ struct Hdf5OutputNode {
   OutputArray array;
 };
 
-/// Writes the file under `root`, readable from HDF5 1.8 on; completely or not at all.
+/// Writes the file under `root`, completely or not at all. It is readable from HDF5 1.8 on.
 /// \pre names of siblings differ, attributes are below 64 kB
 /// \throws Error write_failed; errors of the arrays; cancelled
 void write_hdf5(const Hdf5OutputNode& root, const std::filesystem::path& path, const RunContext& context);

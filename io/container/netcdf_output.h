@@ -24,7 +24,7 @@ struct NetcdfOutput {
   std::vector<Dimension> dimensions;
   std::vector<std::pair<std::string, std::string>> attributes;  ///< string attributes
   std::vector<Variable> variables;
-  bool is_cdf5 = false;  ///< else CDF-2, whose arrays are below 4 GiB
+  bool is_cdf5 = false;  ///< false: CDF-2, whose arrays are below 4 GiB
 };
 
 /// Writes the file completely or not at all; the output is reproducible byte by byte.

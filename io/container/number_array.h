@@ -35,7 +35,7 @@ struct NumberArray {
   /// Returns the bytes up to the first NUL, without trailing blanks.
   std::string text() const;
 
-  /// Throws Error(file_malformed) unless the numbers are integers (reals) and n of them. \param what "the corners of the faces"
+  /// Throws Error(file_malformed) unless there are n numbers and they are integers (reals). \param what "the corners of the faces"
   void require_integers(std::uint64_t n, std::string_view what) const;
   void require_reals(std::uint64_t n, std::string_view what) const;
   [[noreturn]] void fail(std::string_view problem) const;

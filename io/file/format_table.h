@@ -35,7 +35,7 @@ using ContentTest = bool (*)(std::string_view head);
 struct Format {
   std::string_view name;             ///< "SU2"
   std::string_view extensions;       ///< blank-separated, lower case, with dots: ".su2", ".lb8.ugrid"
-  ContentTest is_content = nullptr;  ///< needed if another line has the same extension and a reader
+  ContentTest is_content = nullptr;  ///< needed if another line has the same extension and also a reader
   SurfaceReader read_surface = nullptr;
   SurfaceWriter write_surface = nullptr;
   VolumeReader read_volume = nullptr;
@@ -44,7 +44,7 @@ struct Format {
   FileList files = nullptr;
   OutputTest require_output = nullptr;
   bool carries_patch_kinds = false;         ///< the file states the kinds of patches (wall, inflow ...)
-  KindsPath kinds_beside = nullptr;         ///< or this second file states them, which hash_input does not cover
+  KindsPath kinds_beside = nullptr;         ///< path of the second file that states them, which hash_input does not cover
   Consumers consumers;                      ///< kinds of solvers that read the format
   NumberedWriter write_numbered = nullptr;  ///< for formats with one numbering for cells of all kinds: write_volume with a cell order
 

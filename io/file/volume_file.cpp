@@ -13,7 +13,7 @@ namespace {
 constexpr std::string_view k_boundary_name = "boundary";
 constexpr double k_read_end = 0.9;  // fraction of the time for reading; the boundary test takes the rest
 
-/// Finds open faces. A mesh with more cells than its faces can be numbered is not tested; such a size was checked by the reader.
+/// Finds open faces. Returns nothing, with a warning, if the mesh has so many cells that its faces cannot be numbered.
 std::optional<OpenFaces> open_faces_of(const HybridMesh& mesh, std::string_view source, const RunContext& context) {
   try {
     return find_open_faces(mesh, context);

@@ -22,9 +22,9 @@ enum class Incomplete {
 /// \throws Error file_not_found, file_malformed (line or offset, expectation), unsupported_format.
 HybridMesh read_volume_file(const std::filesystem::path& path, const RunContext& context, Incomplete incomplete = Incomplete::kept);
 
-/// Writes a volume mesh; the format follows from the extension, or is named. Writes to a temporary name in the same folder, syncs, renames: on failure an
-/// existing file is unchanged. Nodes keep their numbers (renumbered() changes them). Cells do, too, but formats with one numbering for cells of all kinds
-/// (OpenFOAM, Fluent) apply `cells` as in MeshFaces::order_cells.
+/// Writes a volume mesh; the format follows from the extension, or is named. The file is written under a temporary name in the same folder, synced and renamed:
+/// on failure an existing file is unchanged. Nodes keep their numbers (renumbered() changes them), and so do cells, except in formats with one numbering for
+/// cells of all kinds (OpenFOAM, Fluent). These apply `cells` as in MeshFaces::order_cells.
 /// \throws Error unsupported_format, write_failed, overflow.
 void write_volume_file(const HybridMesh& mesh, const std::filesystem::path& path, const RunContext& context, std::string_view format_name = {},
                        Numbering cells = Numbering::lines);

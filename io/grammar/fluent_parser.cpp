@@ -28,7 +28,7 @@ enum Section : std::int64_t {
   k_interface_parents = 61
 };
 enum FaceZone : std::int64_t { k_interior = 2, k_wall = 3 };
-constexpr std::int64_t k_single_binary = 2000;  // added to the index of a section with a binary body; 3000: with doubles
+constexpr std::int64_t k_single_binary = 2000;  // added to the index of a section with a binary body of single precision; 3000 for double precision
 constexpr std::int64_t k_double_binary = 3000;
 constexpr std::int64_t k_most_face_nodes = 64;  // nodes of a polygon; more indicates a damaged file
 
@@ -87,7 +87,7 @@ class FluentParser {
     const char* const begin = text_.data() + position_;
     const auto [end, failure] = std::from_chars(begin, text_.data() + text_.size(), value);
     if (failure == std::errc::result_out_of_range)
-      value = std::strtod(std::string(begin, std::min<std::size_t>(64, static_cast<std::size_t>(end - begin))).c_str(), nullptr);  // underflow is zero
+      value = std::strtod(std::string(begin, std::min<std::size_t>(64, static_cast<std::size_t>(end - begin))).c_str(), nullptr);  // an underflow becomes zero
     else if (failure != std::errc{}) fail("found " + found() + ", expected " + expected);
     if (!std::isfinite(value)) fail("found " + found() + ", expected " + std::string(expected) + " (a finite number)");
     position_ = static_cast<std::size_t>(end - text_.data());
@@ -263,7 +263,7 @@ class FluentParser {
       while (position_ < text_.size() && !is_space(text_[position_]) && text_[position_] != ')' && text_[position_] != '(') ++position_;
       return std::string(text_.substr(begin, position_ - begin));
     };
-    word();  // the type again, as a word
+    word();  // the type is repeated as a word
     std::string name = word();
     if (!name.empty()) names_[zone] = std::move(name);
     skip_to_close();

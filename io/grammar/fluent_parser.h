@@ -19,7 +19,7 @@ struct FluentContent {
   FaceBasedMesh faces;             ///< patches numbered in the order in which their zones appear
   Column<PatchId, Patch> patches;  ///< zones of boundary faces
   std::int64_t n_cell_zones = 0;
-  std::int64_t n_inner_walls = 0;  ///< faces of boundary zones between two cells, taken as inner faces
+  std::int64_t n_inner_walls = 0;  ///< faces of boundary zones between two cells, which are treated as inner faces
 };
 
 /// Returns the patch kind for a zone type and name.

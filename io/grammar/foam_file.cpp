@@ -95,7 +95,7 @@ double FoamFile::real(std::string_view expected) {
   double value = 0.0;
   const auto [end, failure] = std::from_chars(found.data(), found.data() + found.size(), value);
   if (failure == std::errc::result_out_of_range && end == found.data() + found.size())
-    value = std::strtod(std::string(found.substr(0, 64)).c_str(), nullptr);  // underflow is zero
+    value = std::strtod(std::string(found.substr(0, 64)).c_str(), nullptr);  // an underflow becomes zero
   else if (found.empty() || failure != std::errc{} || end != found.data() + found.size())
     fail("found " + (found.empty() ? "the end of the file" : quoted_excerpt(found)) + ", expected " + std::string(expected));
   if (!std::isfinite(value)) fail("found " + quoted_excerpt(found) + ", expected " + std::string(expected) + " (a finite number)");

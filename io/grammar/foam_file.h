@@ -26,13 +26,13 @@ class FoamFile {
   const std::string& object_class() const { return class_; }
   const std::string& source() const { return buffer_.source; }
 
-  /// Reads a list of labels. \param limit maximum length; every label is in [0, label_limit)
+  /// Reads a list of labels. \param limit maximum length of the list; every label must be in [0, label_limit)
   std::vector<std::uint32_t> labels(std::string_view expected, std::uint64_t limit, std::uint64_t label_limit);
   /// Reads a list of finite vectors.
   std::vector<Vec3> vectors(std::string_view expected);
-  /// Reads a list of lists of labels in text, faceList: the nodes of all lists and the start of each list.
+  /// Reads a faceList, a list of lists of labels, in text. Returns the nodes of all lists and the start of each list.
   void label_lists(std::string_view expected, std::uint64_t label_limit, std::vector<std::uint32_t>& values, std::vector<std::uint64_t>& first);
-  /// Reads a faceCompactList: the same data as two lists.
+  /// Reads a faceCompactList, which has the same data as two lists.
   void compact_label_lists(std::string_view expected, std::uint64_t label_limit, std::vector<std::uint32_t>& values, std::vector<std::uint64_t>& first);
 
   /// Returns the next word, string (without its quotes) or single character of ( ) { } ; ; empty at the end of the file.

@@ -1,6 +1,6 @@
-// Gmsh MSH: sections between $Name and $EndName in any order (4.1: entities before elements). Tags are sparse: a map gives point numbers. In binary files the
-// sections contain bytes, but section names, and in 2.2 their counts, are text. So the text scanner controls the parsing, and a byte reader is used inside a
-// section.
+// Gmsh MSH has sections between $Name and $EndName in any order (4.1: entities before elements). Tags are sparse, so a map gives the point numbers. In binary
+// files the sections contain bytes, but section names, and in 2.2 their counts, are text. The text scanner therefore controls the parsing, and a byte reader is
+// used inside a section.
 #include "io/grammar/msh_parser.h"
 
 #include <algorithm>
@@ -51,10 +51,10 @@ std::size_t nodes_of_type(std::int64_t type) {
     case 7: return 5;   // pyramid
     case 8: return 3;   // second-order line
     case 9: return 6;   // second-order triangle
-    case 10: return 9;  // second-order quadrangle, with and (16) without a centre node
+    case 10: return 9;  // second-order quadrangle; type 16 has no centre node
     case 16: return 8;
     case 11: return 10;  // second-order tetrahedron
-    case 12: return 27;  // second-order hexahedra, prisms, pyramids: complete, serendipity
+    case 12: return 27;  // second-order hexahedra, prisms and pyramids, first complete, then serendipity
     case 17: return 20;
     case 13: return 18;
     case 18: return 15;

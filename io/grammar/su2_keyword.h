@@ -22,7 +22,7 @@ struct Su2Keyword {
 /// Splits a line; the key is empty if the line is not a keyword line. "NPOIN= 7", "NPOIN=7" and "NPOIN = 7" are equivalent.
 Su2Keyword split_su2_keyword(std::string_view line);
 
-/// Returns the first number of a keyword's value (old files add a second).
+/// Returns the first number of a keyword's value (old files have a second one).
 /// \throws Error(file_malformed) with the cursor's line
 std::uint64_t su2_count(const Su2Keyword& keyword, const LineCursor& cursor);
 

@@ -1,4 +1,4 @@
-// Shared parts of the UGRID (AFLR3) readers and writer: variants by file name, numbers of any variant, the .mapbc file of FUN3D
+// Shared parts of the UGRID (AFLR3) readers and writer: variants by file name, reading of numbers in any variant, and the .mapbc file of FUN3D
 // (docs/method/formats_solvers.md, "UGRID").
 #pragma once
 
@@ -46,7 +46,7 @@ class UgridSource {
   Vec3 point(std::uint64_t i);
   /// Returns the coordinates of the next point, which may be nan or infinite.
   Vec3 any_point();
-  /// Returns a node number less 1. \param n_nodes of the file
+  /// Reads a node number and returns it less 1. \param n_nodes number of nodes in the file
   std::uint32_t node(std::uint64_t n_nodes);
   /// Skips n integers.
   void skip_integers(std::uint64_t n, std::string_view expected);

@@ -35,7 +35,7 @@ struct VtkPiece {
   std::string where;          ///< for messages: "piece at byte 400"
   std::vector<Point> points;  ///< coordinates may not be finite
   std::vector<VtkCells> cells;
-  std::optional<VtuValues> markers;  ///< per cell, over all of `cells`
+  std::optional<VtuValues> markers;  ///< one marker per cell, over all of `cells`
   std::string marker_name;           ///< name of that array
 };
 

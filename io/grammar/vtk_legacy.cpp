@@ -1,5 +1,5 @@
-// Three lines, then keywords in any order. Each announces numbers, as text or as big-endian bytes after the keyword's line. The text scanner controls the
-// parsing; a byte reader is used inside a binary block. Attributes other than patch numbers are skipped by their size.
+// A file has three lines, then keywords in any order. Each keyword announces numbers, as text or as big-endian bytes after the keyword's line. The text scanner
+// controls the parsing; a byte reader is used inside a binary block. Attributes other than patch numbers are skipped by their size.
 #include "io/grammar/vtk_legacy.h"
 
 #include <algorithm>
@@ -191,7 +191,7 @@ class LegacyParser {
     cells_[section]->type = grid_.is_surface ? k_surface_sections[section].type : 0;
   }
 
-  /// Version 5.1: reads the offsets of the nodes of each cell, with the end of the last; then the nodes.
+  /// Reads cells of version 5.1: first the offsets of the nodes of each cell and the end of the last cell, then the nodes.
   VtkCells take_offset_cells(std::size_t n_offsets, std::size_t n_nodes) {
     scanner_.skip_token("OFFSETS");
     const VtuValues offsets = read_values(parse_integer_type(), n_offsets, 1, "offsets");
@@ -256,7 +256,7 @@ class LegacyParser {
     }
   }
 
-  /// Stores the preferred array of patch numbers and the patch names; skips other arrays. \param type none: strings
+  /// Stores the preferred array of patch numbers and the patch names; skips other arrays. \param type empty for strings
   void take_array(const std::string& name, std::optional<Type> type, std::size_t n_tuples, std::size_t n_components) {
     if (n_components > 0 && n_tuples > buffer_.bytes.size() / n_components)
       fail("an array of " + std::to_string(n_tuples) + " times " + std::to_string(n_components) + " values is larger than the file");
@@ -359,7 +359,8 @@ class LegacyParser {
     skip_values(Type::uint8, n * n_components);
   }
 
-  /// Skips strings: one per line in text. In binary files the first two bits give the width of the length field in bytes: 3 one, 2 two, 1 four, 0 eight.
+  /// Skips strings. In text there is one per line. In binary files the first two bits give the width of the length field: 3 means one byte, 2 two, 1 four, 0
+  /// eight bytes.
   void skip_strings(std::size_t n) {
     if (!is_binary_) {
       scanner_.next_line();
@@ -392,7 +393,7 @@ class LegacyParser {
     std::string_view name;
     int type;
   };
-  /// Surface sections in the order in which CELL_DATA counts them, regardless of the order in the file.
+  /// Surface sections in the order in which CELL_DATA counts them. The order in the file may differ.
   static constexpr std::array<SurfaceSection, 4> k_surface_sections = {{{"vertices", 2}, {"lines", 4}, {"polygons", 7}, {"triangle_strips", 6}}};
 
   const FileBuffer& buffer_;

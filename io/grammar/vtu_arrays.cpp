@@ -47,7 +47,8 @@ constexpr std::array<std::int8_t, 256> make_base64_table() {
 }
 constexpr std::array<std::int8_t, 256> k_base64 = make_base64_table();
 
-/// Decodes groups of four characters. Padded groups may occur in between (VTK encodes header and data separately). nullopt: not base64.
+/// Decodes groups of four characters. Padded groups may occur in between, because VTK encodes header and data separately. Returns nullopt if the text is not
+/// base64.
 std::optional<std::string> from_base64(std::string_view text) {
   std::string bytes;
   bytes.reserve(text.size() / 4 * 3);

@@ -78,7 +78,7 @@ class VtuDecoder {
   RunContext context_;
   Packing packing_ = Packing::none;
   std::size_t word_size_ = 4;
-  std::string_view appended_;  ///< after the '_'
+  std::string_view appended_;  ///< appended data after the '_'
   bool appended_is_base64_ = false;
   std::vector<std::uint64_t> offsets_;  ///< offsets of all appended arrays, ascending
 };

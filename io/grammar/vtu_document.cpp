@@ -1,5 +1,5 @@
-// File layout: an XML head with the offset of each array, then the arrays, each a header of block sizes and the compressed blocks. Sizes and offsets are known
-// only after compression: space is reserved for them and filled in when the arrays are written.
+// A file has an XML head with the offset of each array, then the arrays. Each array has a header of block sizes, then the compressed blocks. Sizes and offsets
+// are known only after compression: space is reserved for them and filled in when the arrays are written.
 #include "io/grammar/vtu_document.h"
 
 #include <lz4.h>
@@ -126,8 +126,8 @@ void compress_block(const VtuArray& array, VtuPacking packing, std::uint64_t beg
   else pack_zlib(array, raw.get(), n_bytes, out);
 }
 
-/// Appends an array. Packed: "[number of blocks][block size][size of a shorter last block or 0][packed sizes]", then the blocks. Otherwise the number of bytes,
-/// then the bytes.
+/// Appends an array. With packing it is "[number of blocks][block size][size of a shorter last block or 0][packed sizes]", then the blocks; without packing the
+/// number of bytes, then the bytes.
 void append_array(AtomicFile& file, const VtuArray& array, VtuPacking packing, const RunContext& context) {
   const std::uint64_t per_block = k_vtu_block / size_of(array.type);
   const std::uint64_t n_blocks = (array.n_values + per_block - 1) / per_block;

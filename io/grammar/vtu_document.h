@@ -1,4 +1,5 @@
-// VTU files of any content: named arrays, generated block by block, compressed in parallel, appended raw (docs/method/formats.md, "VTU and VTP").
+// Writes VTU files of any content. They consist of named arrays, which are generated block by block, compressed in parallel and appended raw
+// (docs/method/formats.md, "VTU and VTP").
 #pragma once
 
 #include <cstdint>
@@ -37,7 +38,7 @@ struct VtuDocument {
   std::uint64_t n_points = 0;
   std::uint64_t n_cells = 0;
   VtuArray points;                        ///< 3 components
-  VtuArray connectivity, offsets, types;  ///< VTK node order, end positions, VTK numbers (unused for PolyData)
+  VtuArray connectivity, offsets, types;  ///< nodes in VTK order, end position of each cell, VTK types (types are not used for PolyData)
   std::vector<VtuArray> point_data;
   std::vector<VtuArray> cell_data;
   std::vector<std::pair<std::string, std::int32_t>> field_data;  ///< single numbers by name
@@ -52,7 +53,7 @@ VtuArray vtu_array(std::string name, const std::vector<std::int32_t>& values);
 /// \throws Error write_failed, cancelled, and errors of fill functions.
 void write_vtu(const VtuDocument& document, const std::filesystem::path& path, const RunContext& context);
 
-/// Fastest level: a mesh shrinks to about 40 %; level 6 gains a few percent more at five times the time.
+/// The fastest level, which shrinks a mesh to about 40 %. Level 6 gains a few percent more and takes five times as long.
 inline constexpr int k_zlib_level = 1;
 /// Bytes per compressed block; a multiple of 24, so that points and values do not cross block boundaries.
 inline constexpr std::size_t k_vtu_block = 3u << 19;

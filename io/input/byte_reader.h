@@ -1,4 +1,4 @@
-// Strict reader of binary formats over a loaded file: fixed-width numbers of either byte order. Errors state the byte offset.
+// Strict reader of binary formats over a loaded file. It reads fixed-width numbers of either byte order. Errors state the byte offset.
 #pragma once
 
 #include <algorithm>
@@ -41,7 +41,7 @@ class ByteReader {
     return take<T>();
   }
 
-  /// read() without the check, for use after require().
+  /// Reads a number as read() does, but without the check; for use after require().
   /// \pre sizeof(T) bytes are left
   template <class T>
   requires std::is_arithmetic_v<T> T take() {

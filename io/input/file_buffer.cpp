@@ -13,8 +13,8 @@
 namespace sterna::io {
 namespace {
 
-/// Maximum ratio of unpacked to packed size. Mesh text reaches about 10, repetitive test files 50; deflate itself allows 1032, reached only by decompression
-/// bombs.
+/// Maximum ratio of unpacked to packed size. Mesh text reaches about 10, repetitive test files 50. Deflate itself allows 1032, which only decompression bombs
+/// reach.
 constexpr std::size_t k_max_expansion = 200;
 /// Number of bytes that may be unpacked regardless of the packed size: small files of zeros are harmless.
 constexpr std::size_t k_gzip_expansion_floor = std::size_t{1} << 24;
@@ -34,7 +34,7 @@ std::vector<char> read_all(const std::filesystem::path& path, const std::string&
   if (!file) throw_file(ErrorCode::file_not_found, source, "the file cannot be opened: " + std::generic_category().message(errno));
 
   std::vector<char> bytes;
-  const std::uintmax_t size = std::filesystem::file_size(path, status);  // unknown for a pipe: then the vector grows
+  const std::uintmax_t size = std::filesystem::file_size(path, status);  // the size of a pipe is unknown; the vector then grows
   if (!status) bytes.reserve(static_cast<std::size_t>(size) + 1);        // one more, to detect the end without growing
   for (;;) {
     context.check_stop();

@@ -1,5 +1,5 @@
-// Text files of blocks: a keyword announces n lines with one item each. A first pass finds the start of blocks and of their chunks of lines (as fast as
-// memchr); then all threads parse the chunks. Blank lines and '%' comments are ignored; CRLF is accepted.
+// Text files of blocks, in which a keyword announces n lines with one item each. A first pass finds the start of blocks and of their chunks of lines (as fast
+// as memchr); then all threads parse the chunks. Blank lines and '%' comments are ignored; CRLF is accepted.
 #pragma once
 
 #include <cstdint>
@@ -32,7 +32,8 @@ class LineCursor {
   LineCursor(std::string_view text, std::string_view source) : at_(text.data()), end_(at_ + text.size()), source_(source) {}
   LineCursor(const LineChunk& chunk, std::string_view source) : at_(chunk.begin), end_(chunk.end), line_(chunk.line), source_(source) {}
 
-  /// Moves to the first field of the next line with content (at the beginning: the current line). Returns false at the end of the text.
+  /// Moves to the first field of the next line with content. At the beginning of the text or chunk, the current line counts as the next one. Returns false at
+  /// the end of the text.
   bool find_content();
   /// Moves past the end of the current line.
   void next_line();

@@ -10,7 +10,7 @@
 namespace sterna::io {
 
 struct XmlTag {
-  std::string name;                                             ///< "DataArray"; "/DataArray" closes; a self-closing tag is followed by its closing one
+  std::string name;  ///< "DataArray", or "/DataArray" for a closing tag; a self-closing tag is followed by its closing tag
   std::vector<std::pair<std::string, std::string>> attributes;  ///< entities resolved
   std::string_view text;                                        ///< between this tag and the next
   std::size_t offset = 0;                                       ///< byte of its '<'

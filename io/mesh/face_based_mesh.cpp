@@ -1,5 +1,5 @@
-// Cells from faces: the kind follows from the numbers of triangles and quads, the nodes from one face and the nodes opposite to it. Each reconstructed cell is
-// compared with its faces, one by one.
+// Reconstructs cells from faces. The kind of a cell follows from the numbers of triangles and quads, its nodes from one face and the nodes opposite to it. Each
+// reconstructed cell is compared with its faces, one by one.
 #include "io/mesh/face_based_mesh.h"
 
 #include <algorithm>
@@ -65,7 +65,8 @@ class CellBuilder {
     return *found;
   }
 
-  /// Builds the cell over a base. In cell order the base is the reversed outward face; above it is an apex, or one node over each base node.
+  /// Builds the cell over a base. In the order of the cell's nodes, the base is the reversed outward face. Above it there is an apex, or one node over each
+  /// base node.
   bool build_over(const OutwardFace& base, bool has_apex) {
     const std::size_t n = base.size;
     for (std::size_t k = 0; k < n; ++k) nodes_[k] = base.nodes[(n - k) % n];
@@ -83,7 +84,7 @@ class CellBuilder {
     return true;
   }
 
-  /// Finds the neighbour of `node` outside the base, in any face that has both.
+  /// Finds the neighbour of `node` that is not in the base, in any face that contains both.
   bool find_above(std::uint32_t node, const OutwardFace& base, std::uint32_t& above) const {
     for (std::size_t f = 0; f < n_faces; ++f) {
       const std::span<const std::uint32_t> nodes = faces[f].span();
@@ -99,7 +100,7 @@ class CellBuilder {
     return false;
   }
 
-  /// Returns true if each face of the cell is one of the given faces; their number is equal.
+  /// Returns true if each face of the cell is one of the given faces. Both have the same number of faces.
   bool agrees(CellKind kind) const {
     for (const LocalFace& local : cell_faces(kind)) {
       std::array<std::uint32_t, 4> nodes;

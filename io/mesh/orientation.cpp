@@ -9,7 +9,7 @@
 namespace sterna::io {
 namespace {
 
-/// Returns the exact volume with bilinear faces. With sides split along one diagonal, a valid but warped prism could have a negative volume.
+/// Returns the exact volume of a cell with bilinear faces. If sides were split along one diagonal, a valid but warped prism could have a negative volume.
 template <std::size_t N>
 double signed_volume(const HybridMesh& mesh, const std::array<NodeId, N>& nodes) {
   std::array<Point, N> p;

@@ -15,9 +15,9 @@ struct FlipCounts {
   std::int64_t faces = 0;
 };
 
-/// Flips every explicit cell of negative volume (tets and wedges: two nodes swapped in each triangle; pyramids, hexahedra: in each quad). Then reverses every
-/// boundary face whose orientation is opposite to that of its cell's face. Both are reported in the log. Faces without a cell, and faces with crossed quads,
-/// are kept; `check` reports them.
+/// Flips every explicit cell of negative volume: two nodes are swapped in each triangle of tets and wedges, and in each quad of pyramids and hexahedra. Then
+/// reverses every boundary face whose orientation is opposite to that of its cell's face. Both are reported in the log. Faces without a cell, and faces with
+/// crossed quads, are kept; `check` reports them.
 /// \pre node ids in range. Parallel, same result for any number of threads.
 FlipCounts orient_mesh(HybridMesh& mesh, const RunContext& context);
 

@@ -15,7 +15,7 @@ namespace sterna::io {
 enum class Winding { kept, turned };
 HybridMesh as_boundary(const TriMesh& mesh, Winding winding);
 
-/// The boundary of a file's volume mesh, whose cells were only counted, or a surface without cells.
+/// The boundary of a file's volume mesh, of which the cells were only counted; or a surface without cells.
 struct FileBoundary {
   HybridMesh mesh;            ///< without cells
   std::uint64_t n_cells = 0;  ///< in the file

@@ -78,7 +78,7 @@ void SurfaceBuilder::drop_not_finite() {
   std::vector<std::array<std::uint32_t, 3>> kept;
   std::vector<std::uint32_t> kept_patch;
   const std::size_t n_triangles = soup_.triangles.size();
-  std::size_t t = 0, n_before = 0;  // n_before: polygons of the file before this one
+  std::size_t t = 0, n_before = 0;  // n_before: number of polygons in the file before this one
   const auto take_triangles = [&](std::size_t end) {
     for (; t < end; ++t, ++n_before) {
       if (!is_finite_polygon(soup_.triangles[t])) {

@@ -46,7 +46,7 @@ class SurfaceBuilder {
   SurfaceSoup finish(const RunContext& context, bool drop_unused_points = false);
 
  private:
-  struct Polygon {  // more than three corners; its triangles come before triangle `before`
+  struct Polygon {  // a polygon of more than three corners; its triangles come before triangle `before`
     std::size_t before = 0;
     std::size_t first_corner = 0;
     std::size_t n_corners = 0;
@@ -63,7 +63,7 @@ class SurfaceBuilder {
   std::map<std::string, std::uint32_t, std::less<>> patch_names_;
   std::uint32_t current_patch_ = 0;
   bool has_not_finite_ = false;
-  std::size_t n_not_finite_ = 0;  ///< polygons
+  std::size_t n_not_finite_ = 0;  ///< number of polygons with a corner that is not finite
   std::string not_finite_place_;  ///< location of the first such polygon: "polygon 7 of 12, beside (1, 0, 2)"
   std::vector<Polygon> polygons_;
   std::vector<std::uint32_t> corners_;

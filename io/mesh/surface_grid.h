@@ -1,4 +1,4 @@
-// Structured networks of points as quads, shared by LaWGS and PLOT3D.
+// Converts structured networks of points to quads. Shared by LaWGS and PLOT3D.
 #pragma once
 
 #include <cstdint>

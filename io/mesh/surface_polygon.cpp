@@ -74,7 +74,7 @@ class EarClipper {
       triangles.push_back({previous_[corner], corner, next_[corner]});
       next_[previous_[corner]] = next_[corner];
       previous_[next_[corner]] = previous_[corner];
-      corner = next_[next_[corner]];  // not the neighbour: clipping ears alternately gives better shapes than a triangle fan
+      corner = next_[next_[corner]];  // not the neighbour, so that ears are clipped alternately: this gives better shapes than a triangle fan
       --n_left;
     }
     for (std::uint32_t b = next_[corner]; next_[b] != corner; b = next_[b]) triangles.push_back({corner, b, next_[b]});

@@ -18,8 +18,8 @@ std::map<std::string, PatchKind> read_edge_conditions(const std::filesystem::pat
 /// Returns the path that the writer uses: x.aboc.
 std::filesystem::path edge_conditions_path(const std::filesystem::path& mesh_path);
 
-/// Returns the text of an .aboc file. Inflow and outflow become engine exhaust and inlet, whose parameters the user must set: a warning. \param names names of
-/// all patches; patches with an empty name are left out
+/// Returns the text of an .aboc file. Inflow and outflow become engine exhaust and engine inlet. Their parameters must be set by the user, which is logged as a
+/// warning. \param names names of all patches; patches with an empty name are left out
 std::string edge_conditions_text(const Column<PatchId, Patch>& patches, const std::vector<std::string>& names, const RunContext& context);
 
 }  // namespace sterna::io

@@ -19,7 +19,7 @@ struct NameRules {
   bool may_have_blanks = true;
 };
 
-/// Returns unique names in patch order. An empty name becomes "patch_<n>" (from 1), a repeated name gets a number. Each change is a warning in the log.
+/// Returns unique names in patch order. An empty name becomes "patch_<n>" (from 1), a repeated name gets a number. Each change is logged as a warning.
 std::vector<std::string> names_by_rules(const Column<PatchId, Patch>& patches, const NameRules& rules, const RunContext& context);
 
 }  // namespace sterna::io

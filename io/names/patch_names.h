@@ -10,11 +10,12 @@
 
 namespace sterna::io {
 
-/// Returns names that are valid in SU2, in patch order: blanks, commas, brackets, '%', '=' and control characters become '_', an empty name becomes "patch_<n>"
-/// (from 1), a repeated name and the reserved SEND_RECEIVE get a number. Each change is a warning in the log.
+/// Returns names that are valid in SU2, in patch order. Blanks, commas, brackets, '%', '=' and control characters become '_'. An empty name becomes "patch_<n>"
+/// (from 1). A repeated name and the reserved SEND_RECEIVE get a number. Each change is logged as a warning.
 std::vector<std::string> su2_marker_names(const Column<PatchId, Patch>& patches, const RunContext& context);
 
-/// Returns the patch kind implied by a name in a file without kinds, as in CEASIOMpy: contains "farfield" or "symmetry" (any case), else a wall.
+/// Returns the patch kind implied by a name in a file without kinds, as in CEASIOMpy: farfield or symmetry if the name contains that word (in any case), else a
+/// wall.
 PatchKind kind_of_name(std::string_view name);
 
 /// Returns the patch of that name; adds it (with kind_of_name) if there is none yet.

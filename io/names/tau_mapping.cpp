@@ -81,7 +81,7 @@ std::string bmap_text(const std::vector<TauMarker>& markers) {
   for (const TauMarker& marker : markers) {
     text += "\n                  Markers: " + std::to_string(marker.number) + "\n                     Type: " + marker.condition +
             "\n                     Name: " + marker.name + "\n";
-    // TAU writes values on surfaces with this flag.
+    // With this flag TAU writes values on the surface.
     if (marker.condition.ends_with("wall")) text += " Write surface data (0/1): 1\n";
     text += "\n block end\n ---------------------------\n";
   }

@@ -59,7 +59,7 @@ AtomicFile::AtomicFile(const std::filesystem::path& path) : path_(path), target_
     if (descriptor_ >= 0) break;
     const int error_number = errno;
     if (error_number == EEXIST && i < k_max_names) continue;
-    temporary_.clear();  // not created by this object
+    temporary_.clear();  // the file was not created by this object
     fail(error_number, "creating a file");
   }
   hold(descriptor_);
@@ -79,7 +79,7 @@ void AtomicFile::append(std::string_view bytes) {
 
 void AtomicFile::send() {
   if (size_ < n_sent_ + k_send_bytes) return;
-  // Begins the transfer that commit() waits for and checks; a file system that cannot begin early transfers everything in commit().
+  // Begins the transfer of the bytes; commit() waits for its end and checks it. A file system that cannot begin early transfers everything in commit().
   static_cast<void>(::sync_file_range(descriptor_, static_cast<off_t>(n_sent_), static_cast<off_t>(size_ - n_sent_), SYNC_FILE_RANGE_WRITE));
   n_sent_ = size_;
 }
@@ -124,7 +124,7 @@ void AtomicFile::adopt() {
 
 void AtomicFile::commit() {
   if (::fsync(descriptor_) != 0) fail(errno, "syncing");
-  const int descriptor = descriptor_, held = ::dup(descriptor_);  // locked until the file has its final name
+  const int descriptor = descriptor_, held = ::dup(descriptor_);  // the copy keeps the lock until the file has its final name
   descriptor_ = -1;
   const auto do_or_fail = [&](int status, std::string_view doing) {
     if (status == 0) return;
@@ -158,8 +158,8 @@ void AtomicFile::fail(int error_number, std::string_view doing) {
 
 void AtomicFile::discard() noexcept {
   if (descriptor_ >= 0) {
-    // Frees the space even if a library has the file open, which needs room to write the data required for closing it. Nobody reads the file any more, so a
-    // failure is harmless.
+    // Frees the space even if a library has the file open, because the library needs room to write the data required for closing it. Nobody reads the file any
+    // more, so a failure is harmless.
     (void)!::ftruncate(descriptor_, 0);
     ::close(descriptor_);
   }

@@ -1,4 +1,4 @@
-// Output file that is written completely or not at all: written under a temporary name in the same folder, renamed when complete.
+// An output file that is written completely or not at all. It is written under a temporary name in the same folder, and renamed when complete.
 #pragma once
 
 #include <cstdint>
@@ -19,7 +19,7 @@ class AtomicFile {
   AtomicFile(const AtomicFile&) = delete;
   AtomicFile& operator=(const AtomicFile&) = delete;
 
-  /// Appends bytes. Not buffered: use pieces of about 100 kB where speed matters.
+  /// Appends bytes without a buffer. Use pieces of about 100 kB where speed matters.
   void append(std::string_view bytes);
   /// Overwrites bytes written earlier.
   /// \pre offset + bytes.size() <= size()

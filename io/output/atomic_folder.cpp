@@ -15,7 +15,7 @@
 namespace sterna::io {
 namespace {
 
-constexpr int k_max_folder_names = 1000;    // as in AtomicFile: leftovers of killed runs
+constexpr int k_max_folder_names = 1000;    // the same number as in AtomicFile: leftovers of killed runs can occupy some names
 constexpr mode_t k_new_folder_mode = 0777;  // reduced by the umask
 
 void sync_folder(const std::filesystem::path& folder) {
@@ -56,7 +56,7 @@ AtomicFolder::AtomicFolder(const std::filesystem::path& path, std::string_view p
     if (::mkdir(temporary_.c_str(), k_new_folder_mode) == 0) break;
     const int error_number = errno;
     if (error_number == EEXIST && i < k_max_folder_names) continue;
-    temporary_.clear();  // not created by this object
+    temporary_.clear();  // the folder was not created by this object
     fail(error_number, "creating a folder");
   }
   held_ = ::open(temporary_.c_str(), O_RDONLY | O_DIRECTORY | O_CLOEXEC);
@@ -68,12 +68,12 @@ AtomicFolder::~AtomicFolder() { discard(); }
 void AtomicFolder::commit() {
   sync_folder(temporary_);
   if (::renameat2(AT_FDCWD, temporary_.c_str(), AT_FDCWD, target_.c_str(), RENAME_EXCHANGE) == 0) {
-    discard();  // the old folder after the exchange
+    discard();  // removes the old folder, which has the temporary name after the exchange
   } else if (errno == ENOENT) {
     if (::rename(temporary_.c_str(), target_.c_str()) != 0) fail(errno, "renaming");
     temporary_.clear();
   } else {
-    // File system without exchange: the old folder is renamed, and restored if the new folder cannot take its name.
+    // The file system does not support exchanges. The old folder is renamed, and restored if the new folder cannot take its name.
     const std::filesystem::path aside = temporary_.string() + ".old";
     if (::rename(target_.c_str(), aside.c_str()) != 0) fail(errno, "renaming the old folder");
     if (::rename(temporary_.c_str(), target_.c_str()) != 0) {

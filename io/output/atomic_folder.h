@@ -1,4 +1,5 @@
-// Output folder that is written completely or not at all: filled under a temporary name beside the target, exchanged with the old folder when complete.
+// An output folder that is written completely or not at all. It is filled under a temporary name beside the target, and exchanged with the old folder when
+// complete.
 #pragma once
 
 #include <filesystem>

@@ -14,8 +14,8 @@ namespace sterna::io {
 /// Order of cell kinds in files: prisms first (the layers before the rest), tetrahedra last.
 inline constexpr std::array<CellKind, 4> k_kinds_in_file = {CellKind::prism, CellKind::pyramid, CellKind::hexahedron, CellKind::tetrahedron};
 
-/// View of a mesh, which must outlive the view. Cells of one kind: cells of the columns (column by column, layer by layer), then the explicit cells. A mesh of
-/// columns and its explicit_cells() thus have the same sequence.
+/// View of a mesh, which must outlive the view. The cells of one kind are first those of the columns (column by column, layer by layer), then the explicit
+/// cells. A mesh of columns and its explicit_cells() thus have the same sequence.
 class CellSections {
  public:
   explicit CellSections(const HybridMesh& mesh);
@@ -59,7 +59,7 @@ class CellSections {
 
   const HybridMesh* mesh_;
   bool all_columns_are_prisms_ = true;
-  std::array<std::vector<std::uint32_t>, 4> columns_;  ///< by kind; empty where all columns are prisms
+  std::array<std::vector<std::uint32_t>, 4> columns_;  ///< columns with cells of each kind; empty if all columns consist of prisms
   std::array<LayerNumbers, 4> numbers_;                ///< numbering of the cells in columns, by kind
 };
 

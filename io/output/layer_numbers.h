@@ -1,5 +1,5 @@
-// Numbering of items that columns have layer by layer (cells, faces of a side), one column after the other. Arithmetic where all columns have the same number
-// of layers, a table of offsets where the numbers differ.
+// Numbering of items that columns have layer by layer (cells, faces of a side), one column after the other. It is computed if all columns have the same number
+// of layers; otherwise a table of offsets is used.
 #pragma once
 
 #include <algorithm>
@@ -13,7 +13,7 @@ namespace sterna::io {
 class LayerNumbers {
  public:
   LayerNumbers() = default;
-  /// Numbering for n columns, the i-th with count(i) items; n_layers of the block if all its growth lines have that number.
+  /// Creates the numbering for n columns. Column i has count(i) items, or n_layers of the block if all its growth lines have that number.
   template <class Count>
   LayerNumbers(const LayerBlock& layers, std::uint64_t n, const Count& count)
       : per_column_(static_cast<std::uint64_t>(std::max(layers.n_layers, 0))), size_(n * per_column_) {
@@ -39,7 +39,7 @@ class LayerNumbers {
 
  private:
   std::uint64_t per_column_ = 0, size_ = 0;
-  std::vector<std::uint64_t> first_;  ///< empty: per_column_ everywhere
+  std::vector<std::uint64_t> first_;  ///< empty if each column has per_column_ items
 };
 
 }  // namespace sterna::io

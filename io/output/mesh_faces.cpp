@@ -9,7 +9,8 @@
 namespace sterna::io {
 namespace {
 
-constexpr std::uint64_t k_count_interval = 1024;  // cells between two stored counts: 1 MB for 62 M cells, some microseconds to count from a stored value
+constexpr std::uint64_t k_count_interval = 1024;  // number of cells between two stored counts: 1 MB for 62 M cells, and some microseconds to count from a
+                                                  // stored value
 constexpr std::uint32_t k_unmatched = std::numeric_limits<std::uint32_t>::max() - 1;
 constexpr std::uint32_t k_matched_often = std::numeric_limits<std::uint32_t>::max() - 2;
 constexpr std::uint64_t k_most_slots = k_matched_often;
@@ -259,7 +260,7 @@ void MeshFaces::match_loose_faces(const RunContext& context) {
   }
   for (std::size_t i = 0; i < n_nodes; ++i) end_of[i + 1] += end_of[i];
   std::vector<std::uint32_t> sorted(n_slots_);
-  // Filling moves each node's start to its end. Afterwards a node's slots are [end_of[i - 1], end_of[i]).
+  // Filling moves each node's start to its end. Afterwards the slots of node i are [end_of[i - 1], end_of[i]).
   for (Slot slot = 0; slot < n_slots_; ++slot) {
     const CellFace face = loose_face(slot);
     sorted[end_of[std::min_element(face.nodes.begin(), face.nodes.begin() + face.size)->index()]++] = static_cast<std::uint32_t>(slot);

@@ -24,7 +24,7 @@ struct CellFace {
 };
 
 /// Faces of a mesh, which must outlive this object. Cells are numbered as in for_each_cell(): column by column, layer by layer, then prisms, pyramids,
-/// hexahedra, tetrahedra; after order_cells() as defined there. Inside the columns neighbours follow from the numbering; only the other faces are matched
+/// hexahedra, tetrahedra. order_cells() changes these numbers. Inside the columns neighbours follow from the numbering; only the other faces are matched
 /// through a table: 12 bytes per face and 4 per node (0.7 GB for 25 M nodes, 45 M prisms, 17 M tetrahedra). Based on: counting sort of faces by their lowest
 /// node.
 class MeshFaces {
@@ -33,15 +33,15 @@ class MeshFaces {
   static constexpr std::size_t k_most_faces = 6;
 
   /// Matches the faces. Parallel, same result for any number of threads.
-  /// \throws Error mesh_invalid: a face of only one cell that is not a boundary face, a face of three cells, a boundary face without a cell, a node that does
-  /// not exist; overflow: more than 2^32 - 2 cells or unmatched faces; cancelled
+  /// \throws Error mesh_invalid for a face of only one cell that is not a boundary face, a face of three cells, a boundary face without a cell, or a node that
+  /// does not exist; overflow for more than 2^32 - 2 cells or unmatched faces; cancelled
   MeshFaces(const HybridMesh& mesh, const RunContext& context);
 
   std::uint64_t n_cells() const { return n_column_cells_ + n_explicit_; }
   std::uint64_t n_column_cells() const { return n_column_cells_; }  ///< the first cells of for_each_cell()
 
-  /// Renumbers the cells. `both`: columns as units, from the wall outwards, and the explicit cells, with both ordered by bandwidth_order; `bandwidth`: all
-  /// cells; `lines`: unchanged. Stores two more numbers per cell.
+  /// Renumbers the cells. `both`: columns as units (from the wall outwards) and the explicit cells are ordered by bandwidth_order; `bandwidth`: all cells are
+  /// ordered by it; `lines`: the numbers are unchanged. Stores two more numbers per cell.
   void order_cells(Numbering numbering, const RunContext& context);
   /// Returns the number of a cell, given by its number in for_each_cell().
   std::uint32_t number_of(std::uint64_t cell) const { return new_of_old_.empty() ? static_cast<std::uint32_t>(cell) : new_of_old_[cell]; }
@@ -64,8 +64,8 @@ class MeshFaces {
   /// Counts the internal faces whose lower cell is below `cell`.
   Count internal_before(std::uint64_t cell) const;
 
-  /// Calls f(cell, face) for the internal faces whose lower cell is in [begin, end), oriented as seen from that cell. Order: by lower cell, then by the other
-  /// cell ("upper triangular").
+  /// Calls f(cell, face) for the internal faces whose lower cell is in [begin, end), oriented as seen from that cell. The faces are ordered by lower cell, then
+  /// by the other cell ("upper triangular").
   template <class F>
   void for_each_internal(std::uint64_t begin, std::uint64_t end, const F& f) const {
     std::array<CellFace, k_most_faces> faces;
@@ -89,7 +89,7 @@ class MeshFaces {
   };
 
   std::uint64_t old_of(std::uint64_t cell) const { return old_of_new_.empty() ? cell : old_of_new_[cell]; }
-  /// faces_of() in the numbering of for_each_cell().
+  /// Computes the faces of a cell in the numbering of for_each_cell().
   std::size_t given_faces_of(std::uint64_t cell, std::array<CellFace, k_most_faces>& faces) const;
   /// Returns the unit for ordering: a cell, or a whole column.
   std::uint64_t unit_of(std::uint64_t cell, bool is_by_column) const;
@@ -109,13 +109,13 @@ class MeshFaces {
   void count_internal(const RunContext& context);
 
   const HybridMesh* mesh_;
-  std::uint64_t n_live_ = 0;         ///< columns with cells
-  std::vector<std::uint32_t> live_;  ///< their numbers; empty: all
+  std::uint64_t n_live_ = 0;         ///< number of columns with cells ("live" columns)
+  std::vector<std::uint32_t> live_;  ///< numbers of the live columns; empty if all columns are live
   LayerNumbers cells_;               ///< cells of live columns
   std::uint64_t n_column_cells_ = 0;
   std::uint64_t n_explicit_ = 0;
   std::array<ExplicitBlock, 4> blocks_{};
-  std::vector<std::uint32_t> beside_;      ///< per live column and side: live column, n_live_ + number of an open side, or k_boundary for none
+  std::vector<std::uint32_t> beside_;      ///< per live column and side: the live column beside it, n_live_ + number of an open side, or k_boundary for no face
   std::vector<std::uint64_t> open_sides_;  ///< 3 * live column + side
   LayerNumbers open_faces_;                ///< faces of open sides
   Slot first_open_ = 0, first_boundary_ = 0, n_slots_ = 0;

@@ -1,4 +1,4 @@
-// Parallel generation of bytes with ordered output: chunks are filled in parallel, one batch at a time, while the previous batch is written to the disk.
+// Generates bytes in parallel and writes them in order. Chunks are filled in parallel, one batch at a time, while the previous batch is written to the disk.
 #pragma once
 
 #include <cstddef>
@@ -49,7 +49,7 @@ void write_ordered(const TakeBytes& take, std::size_t n_chunks, const FillChunk&
 /// \throws as the overload above; errors of AtomicFile::append
 void write_ordered(AtomicFile& file, std::size_t n_chunks, const FillChunk& fill, const RunContext& context);
 
-/// Chunks per batch: enough for 16 threads; with buffers of 0.3 - 1.6 MB below 100 MB in total.
+/// Number of chunks per batch. It is enough for 16 threads, and buffers of 0.3 - 1.6 MB take less than 100 MB in total.
 inline constexpr std::size_t k_batch_chunks = 32;
 
 }  // namespace sterna::io

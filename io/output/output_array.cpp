@@ -14,7 +14,7 @@ void stream_arrays(const std::vector<const OutputArray*>& arrays, const PutValue
   std::vector<OutputSection> sections;
   for (const OutputArray* array : arrays) sections.insert(sections.end(), array->content.begin(), array->content.end());
   std::size_t array = 0;
-  std::uint64_t n_done = 0;  // values of the array
+  std::uint64_t n_done = 0;  // number of values of the array that are done
   const auto append = [&](std::string_view bytes) {
     if (bytes.empty()) return;
     while (n_done == count_of(*arrays[array])) {

@@ -1,4 +1,4 @@
-// Arrays that a library writes into a container file: described first, then generated in parallel and streamed.
+// Arrays that a library writes into a container file. They are described first, then generated in parallel and streamed.
 #pragma once
 
 #include <cstdint>

@@ -1,4 +1,5 @@
-// A file as a sequence of sections of uniform items (nodes, cells of a kind, faces of a patch): cut into chunks, generated in parallel, written in order.
+// A file as a sequence of sections of uniform items (nodes, cells of a kind, faces of a patch). Sections are cut into chunks, generated in parallel and written
+// in order.
 #pragma once
 
 #include <algorithm>
@@ -33,10 +34,10 @@ void write_sections(AtomicFile& file, const std::vector<OutputSection>& sections
 /// Passes the sections to `take`, in chunks of a number of items.
 void write_sections(const TakeBytes& take, const std::vector<OutputSection>& sections, std::uint64_t items_per_chunk, const RunContext& context);
 
-/// Items per chunk if they are numbers or short rows of numbers: below 1 MB.
+/// Number of items per chunk if they are numbers or short rows of numbers. A chunk is then below 1 MB.
 inline constexpr std::uint64_t k_items_per_chunk_of_numbers = 16384;
 
-/// Maximum length of a number as text: "-2.2250738585072014e-308", a 64-bit number with its sign.
+/// Maximum length of a number as text: a real such as "-2.2250738585072014e-308", and a 64-bit integer with its sign.
 inline constexpr std::size_t k_max_real_text = 24;
 inline constexpr std::size_t k_max_integer_text = 20;
 

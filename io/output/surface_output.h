@@ -39,7 +39,7 @@ OutputSection items_section(std::uint64_t n, std::size_t max_bytes, const Put& p
 
 char* put_text(char* at, std::string_view text);
 inline constexpr std::size_t k_max_point_text = 3 * (k_max_real_text + 1);
-inline constexpr std::size_t k_max_id_text = 11;  // 32 bits counted from 1, and a blank
+inline constexpr std::size_t k_max_id_text = 11;  // a 32-bit number counted from 1, and a blank
 /// Writes "x y z".
 char* put_point_text(char* at, const Point& p);
 /// Writes "a b c", counted from `base`.
@@ -57,7 +57,7 @@ inline std::int64_t patch_number(const TriMesh& mesh, TriangleId t) { return sta
 /// Throws Error(overflow) for coordinates beyond the range of a 32-bit float; reports how far rounding moves the vertices.
 void require_single_precision(const TriMesh& mesh, std::string_view format, const std::string& path, const RunContext& context);
 
-/// Writes the whole file: temporary name, sections, sync, rename. The bytes do not depend on the number of threads.
+/// Writes the whole file: writes the sections under a temporary name, syncs and renames the file. The bytes do not depend on the number of threads.
 void write_file(const std::filesystem::path& path, const std::vector<OutputSection>& sections, const RunContext& context);
 
 /// Logs the names of the patches by number, for a format that stores only numbers.

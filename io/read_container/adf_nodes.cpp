@@ -1,5 +1,5 @@
-// ADF with libcgns (its layer cgio). A node is mapped to its form in a CGNS file in HDF5: a group with the attributes "label" and "type", its values in a
-// dataset " data".
+// Reads ADF with libcgns (its layer cgio). A node is mapped to its form in a CGNS file in HDF5: a group with the attributes "label" and "type", and its values
+// in a dataset " data".
 #include <cgns_io.h>
 
 #include <algorithm>

@@ -1,6 +1,6 @@
 // sterna-read-container: reads an HDF5, NetCDF or ADF file with its library in a separate process, because these libraries crash, loop and allocate without
-// bound on damaged or hostile files. The protocol is container_wire.h. Steps: set limits; read the nodes of the file with their extents, checked against the
-// file size; write the image with their values.
+// bound on damaged or hostile files. The protocol is container_wire.h. Steps: set limits; read the nodes of the file with their extents, and check these
+// against the file size; write the image with the values of the nodes.
 #include <fcntl.h>
 #include <sys/mman.h>
 #include <sys/prctl.h>
@@ -22,7 +22,7 @@ using namespace sterna::io;
 /// The same file by path, for libraries that require a path; the descriptor limit keeps other files from being opened.
 constexpr const char* k_path = "/proc/self/fd/3";
 constexpr std::uint64_t k_cpu_seconds = 10;                ///< for any file: only endless loops need more
-constexpr std::uint64_t k_bytes_per_cpu_second = 1 << 20;  ///< additional time by size; unpacking produces 50 times as much
+constexpr std::uint64_t k_bytes_per_cpu_second = 1 << 20;  ///< additional time is the file size over this number; unpacking produces 50 times as much
 /// One file may be open in addition to the five descriptors: links to other files, data in other files and library plug-ins cannot be opened.
 constexpr rlim_t k_descriptors = wire::k_image_fd + 2;
 
@@ -30,7 +30,7 @@ void limit_process(std::uint64_t file_size) {
   prctl(PR_SET_PDEATHSIG, SIGKILL);
   const rlimit none{0, 0};
   setrlimit(RLIMIT_CORE, &none);
-  close_range(wire::k_image_fd + 1, ~0u, 0);  // inherited from the parent's parent
+  close_range(wire::k_image_fd + 1, ~0u, 0);  // descriptors that the parent inherited from its own parent
   const rlimit descriptors{k_descriptors, k_descriptors};
   setrlimit(RLIMIT_NOFILE, &descriptors);
   const std::uint64_t seconds = k_cpu_seconds + file_size / k_bytes_per_cpu_second;

@@ -1,5 +1,5 @@
-// HDF5 with libhdf5. Links by name and to other files are not followed. A group or dataset that is reached a second time is recorded as a link, too, which
-// avoids cycles.
+// Reads HDF5 with libhdf5. Links by name and to other files are not followed. A group or dataset that is reached a second time is also recorded as a link,
+// which avoids cycles.
 #include <hdf5.h>
 #include <sys/mman.h>
 
@@ -83,8 +83,8 @@ Type type_of(hid_t id) {
   return {};
 }
 
-/// Opens the file. The library requires the real path of a file. A file that exists only in memory (it was packed) has none: the library gets a copy of its
-/// bytes.
+/// Opens the file. The library requires the real path of a file. A file that was packed exists only in memory and has no path, so the library gets a copy of
+/// its bytes.
 hid_t open_file(const char* path, const Limits& limits) {
   char* const real_path = realpath(path, nullptr);
   if (real_path) {
@@ -94,7 +94,7 @@ hid_t open_file(const char* path, const Limits& limits) {
   void* const bytes = mmap(nullptr, limits.file_size, PROT_READ | PROT_WRITE, MAP_PRIVATE, wire::k_file_fd, 0);
   if (bytes == MAP_FAILED) throw std::bad_alloc();
   const Handle access(H5Pcreate(H5P_FILE_ACCESS), H5Pclose, "the file", "opening it");
-  constexpr std::size_t k_step = 1 << 20;  // the file does not grow
+  constexpr std::size_t k_step = 1 << 20;  // bytes by which the library would enlarge the copy; the file does not grow
   if (H5Pset_fapl_core(access, k_step, false) < 0 || H5Pset_file_image(access, bytes, limits.file_size) < 0) fail("the head of the file", "opening it");
   const hid_t file = H5Fopen("unpacked", H5F_ACC_RDONLY, access);
   munmap(bytes, limits.file_size);
@@ -283,7 +283,7 @@ class Hdf5Nodes {
     std::uint64_t n_expected = 1, n_bytes = byte_size(node.kind);
     bool is_sound = true;
     for (std::size_t k = 0; k < node.extents.size(); ++k) {
-      const std::uint64_t along = k < static_cast<std::size_t>(rank) ? shape[k] : node.extents[k];  // beyond the rank: the string length
+      const std::uint64_t along = k < static_cast<std::size_t>(rank) ? shape[k] : node.extents[k];  // the last extent is the string length, beyond the rank
       if (along == 0) return node.give_up(Trouble::malformed, "found chunks of size zero");
       if (k < static_cast<std::size_t>(rank)) is_sound = is_sound && !__builtin_mul_overflow(n_expected, (node.extents[k] - 1) / along + 1, &n_expected);
       is_sound = is_sound && !__builtin_mul_overflow(n_bytes, along, &n_bytes);

@@ -102,7 +102,7 @@ void Image::write() {
     record.rank = static_cast<std::uint32_t>(node.extents.size());
     std::copy(node.extents.begin(), node.extents.end(), record.extents);
     record.n_bytes = node.n_bytes();
-    record.begin = n_values;  // until the length of the text is known
+    record.begin = n_values;  // the beginning is corrected when the length of the text is known
     if (record.n_bytes > limits_.unpacked() || (n_values += aligned(record.n_bytes)) > limits_.unpacked())
       throw Failure{.outcome = wire::Outcome::malformed,
                     .where = "the file",

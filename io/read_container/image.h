@@ -1,4 +1,4 @@
-// Helper side of container_wire.h: nodes are collected first, then the image is laid out and the values are read directly into it.
+// Helper side of container_wire.h. Nodes are collected first; then the image is laid out and the values are read directly into it.
 #pragma once
 
 #include <algorithm>
@@ -74,7 +74,8 @@ class Image {
   std::vector<Node> nodes_;
 };
 
-/// Marks a node of kind and extents as too large (more than `limit` bytes), or as having too many extents. \returns its bytes, 0 if there is a trouble
+/// Marks a node whose kind and extents give more than `limit` bytes as too large, and a node with too many extents. \returns its number of bytes, 0 if it is
+/// marked
 std::uint64_t check_size(Node& node, std::uint64_t limit);
 
 /// Writes the image of a failed reading.

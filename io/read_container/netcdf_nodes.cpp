@@ -1,5 +1,5 @@
-// NetCDF with libnetcdf, read from memory so that truncated files are detected: reading from disk fills missing data with zeros. NetCDF-4 is HDF5 and is first
-// scanned as such, because libnetcdf does not report problems of variables such as external data or missing chunks.
+// Reads NetCDF with libnetcdf from memory. Truncated files are then detected: reading from disk would fill missing data with zeros. NetCDF-4 is HDF5 and is
+// first scanned as such, because libnetcdf does not report problems of variables such as external data or missing chunks.
 #include <netcdf.h>
 #include <netcdf_mem.h>
 
@@ -37,7 +37,7 @@ void require(int status, const std::string& where) {
   if (status == NC_NOERR) return;
   if (status == NC_ENOMEM) throw std::bad_alloc();
   const std::string problem = status == EPERM ? "the file ends before the end of its values"
-                                              : std::string("the NetCDF library says: ") + nc_strerror(status);  // EPERM: file would have to grow
+                                              : std::string("the NetCDF library says: ") + nc_strerror(status);  // EPERM: the file would have to grow
   throw Failure{.outcome = wire::Outcome::malformed, .where = where, .problem = problem, .hint = "the file may have been cut short: copy or write it again"};
 }
 

@@ -18,7 +18,7 @@
 namespace sterna::io {
 namespace {
 
-constexpr std::uint32_t k_first_record_bytes = 8;  // two counts
+constexpr std::uint32_t k_first_record_bytes = 8;  // bytes of a record with two counts
 constexpr std::size_t k_min_vertex_bytes = 6;      // "0 0 0" and a line end
 constexpr std::size_t k_min_triangle_bytes = 6;
 
@@ -40,7 +40,7 @@ SurfaceSoup read_text(const FileBuffer& buffer, const RunContext& context) {
   scanner.at_end();
   const std::size_t n_points = scanner.count("the number of vertices", k_min_vertex_bytes);
   const std::size_t n_triangles = scanner.count("the number of triangles", k_min_triangle_bytes);
-  const bool has_scalars = !scanner.at_line_end() && scanner.integer("the number of scalars") > 0;  // .triq
+  const bool has_scalars = !scanner.at_line_end() && scanner.integer("the number of scalars") > 0;  // a .triq file also has scalars
   scanner.set_line_bound(false);
   SurfaceBuilder builder(buffer.source);
   builder.reserve_points(n_points);
@@ -66,7 +66,7 @@ SurfaceSoup read_text(const FileBuffer& buffer, const RunContext& context) {
   return soup;
 }
 
-// ---- binary: Fortran records, each between its size in bytes
+// ---- binary: Fortran records, each enclosed by its size in bytes
 
 class RecordReader {
  public:
@@ -168,7 +168,7 @@ void write_cart3d(const TriMesh& mesh, const std::filesystem::path& path, const 
 }
 
 void write_cart3d_binary(const TriMesh& mesh, const std::filesystem::path& path, const RunContext& context) {
-  constexpr std::uint64_t k_most = std::numeric_limits<std::int32_t>::max() / 12;  // for 12 bytes per item in a record
+  constexpr std::uint64_t k_most = std::numeric_limits<std::int32_t>::max() / 12;  // a record has 12 bytes per item
   require_count(std::max(mesh.n_vertices(), mesh.n_triangles()), k_most, "vertices or triangles", "binary Cart3D", path.string());
   require_single_precision(mesh, "binary Cart3D", path.string(), context);
   tell_numbered_patches(mesh, "Cart3D", context);

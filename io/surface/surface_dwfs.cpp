@@ -1,4 +1,4 @@
-// Plain numbers between the tags <Vertices>, <Faces> and <Tags> of each <Triangulation>; the <TagNameMap> with tag names comes last.
+// The file has plain numbers between the tags <Vertices>, <Faces> and <Tags> of each <Triangulation>. The <TagNameMap> with tag names comes last.
 #include "io/surface/surface_dwfs.h"
 
 #include <algorithm>
@@ -75,7 +75,7 @@ class DwfsReader {
     has_tags_ = has_tags_ || !tags.empty();
   }
 
-  /// Reads all numbers of a tag; "count" may be the number of values or of items of `per_item` values.
+  /// Reads all numbers of a tag. "count" may be the number of values, or of items of `per_item` values.
   template <class T>
   std::vector<T> numbers(const XmlTag& tag, std::size_t per_item) const {
     std::vector<T> values;

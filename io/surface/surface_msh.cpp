@@ -1,4 +1,4 @@
-// Gmsh MSH as a surface: triangles and quadrangles of any order by their corners; volume elements are ignored.
+// Reads Gmsh MSH as a surface: triangles and quadrangles of any order by their corners. Volume elements are ignored.
 #include "io/surface/surface_msh.h"
 
 #include <algorithm>
@@ -46,7 +46,7 @@ std::string physical_names(const TriMesh& mesh, const TrianglesByPatch& triangle
   return text + "$EndPhysicalNames\n";
 }
 
-/// Writes the entities: each patch is a surface of the model; Gmsh requires its bounding box.
+/// Writes the entities. Each patch is a surface of the model, for which Gmsh requires the bounding box.
 std::string entities(const TriMesh& mesh, const TrianglesByPatch& triangles) {
   std::string text = "$Entities\n0 0 " + std::to_string(triangles.used_patches().size()) + " 0\n";
   for (const PatchId patch : triangles.used_patches()) {

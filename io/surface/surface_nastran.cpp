@@ -1,5 +1,5 @@
-// Cards of fields: eight columns each, sixteen if the name ends in '*', or separated by commas. Lines that begin with a blank field, '+' or '*' continue a
-// card.
+// A card consists of fields: of eight columns each, of sixteen if the name ends in '*', or separated by commas. Lines that begin with a blank field, '+' or '*'
+// continue a card.
 #include "io/surface/surface_nastran.h"
 
 #include <algorithm>
@@ -60,7 +60,7 @@ bool is_not_finite_text(std::string_view field, double& value) {
   return equal_ignoring_case(bare.substr(0, 3), "nan") || equal_ignoring_case(bare.substr(0, 3), "inf") || bare.starts_with("1.#");
 }
 
-/// Interpretation of an element card for surfaces.
+/// Meaning of an element card for surfaces.
 struct ElementCard {
   std::string_view name;
   std::size_t n_corners;  ///< 0: a volume element
@@ -78,7 +78,7 @@ constexpr std::array<ElementCard, 12> k_elements = {{{"CTRIA3", 3},
                                                      {"CPYRA", 0},
                                                      {"CHEXA", 0}}};
 
-/// Returns true for cards of elements that are neither faces nor volumes of a mesh, and of unsupported faces.
+/// Returns true for cards of elements that are neither faces nor volumes of a mesh, and for cards of unsupported faces.
 bool is_other_element(std::string_view name) {
   constexpr std::array<std::string_view, 20> k_names = {"CBAR",   "CBEAM",  "CROD",    "CONROD", "CTUBE",   "CBEND",   "CBUSH",   "CELAS1", "CELAS2", "CELAS3",
                                                         "CSHEAR", "CTRIAX", "CTRIAX6", "CQUADX", "CQUADX4", "CQUADX8", "CTRIAX3", "PLOTEL", "CAERO1", "CAERO2"};
@@ -316,7 +316,7 @@ class BulkParser {
 
 // ---- writing
 
-/// Returns the closest number that 16 characters can hold: exponents without 'e', no zero before the decimal point.
+/// Returns the closest number that 16 characters can hold. It is written without 'e' in the exponent and without a zero before the decimal point.
 std::string large_field(double value) {
   const auto shortened = [](std::string text) {
     const std::size_t e = text.find('e');

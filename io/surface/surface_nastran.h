@@ -14,7 +14,7 @@ namespace sterna::io {
 /// \throws Error file_not_found, file_malformed (line), unsupported_format (INCLUDE, coordinate systems), cancelled.
 SurfaceSoup read_nastran(const std::filesystem::path& path, const RunContext& context);
 
-/// Writes large fields: coordinates to the 13 or 14 digits that 16 characters hold; a PSHELL and name comments per patch.
+/// Writes large fields, with a PSHELL and name comments per patch. Coordinates have the 13 or 14 digits that 16 characters hold.
 /// \throws Error write_failed, overflow (numbers of eight digits), cancelled.
 void write_nastran(const TriMesh& mesh, const std::filesystem::path& path, const RunContext& context);
 

@@ -1,4 +1,4 @@
-// OBJ: vertices and faces. Changes of group, object and material are recorded, and one of the three becomes the patches at the end.
+// Reads vertices and faces of OBJ. Changes of group, object and material are recorded, and one of the three becomes the patches at the end.
 #include "io/surface/surface_obj.h"
 
 #include <algorithm>
@@ -19,7 +19,7 @@
 namespace sterna::io {
 namespace {
 
-/// Keywords without effect on the surface's triangles.
+/// Keywords that have no effect on the triangles of the surface.
 constexpr std::array<std::string_view, 41> k_ignored = {
     "vt",         "vn",        "vp",    "s",     "l",    "p",   "mtllib", "maplib", "usemap", "mg",     "lod",  "bevel", "c_interp", "d_interp",
     "shadow_obj", "trace_obj", "ctech", "stech", "call", "csh", "deg",    "bmat",   "step",   "cstype", "curv", "curv2", "surf",     "parm",
@@ -46,12 +46,12 @@ struct NameChange {
 
 struct Faces {
   std::vector<std::uint32_t> corners;
-  std::vector<std::size_t> ends;  ///< per face, one past its last corner
+  std::vector<std::size_t> ends;  ///< per face: index in `corners` after its last corner
   std::array<std::vector<NameChange>, k_n_namings> changes;
   std::size_t size() const { return ends.size(); }
 };
 
-/// The highest vertex referenced by a face, and its location, because a face may precede its vertices.
+/// The highest vertex referenced by a face, and the location of that reference. It is checked at the end, because a face may precede its vertices.
 struct HighestIndex {
   std::int64_t value = 0;
   std::size_t offset = 0;
@@ -82,7 +82,7 @@ void parse_face(TextScanner& scanner, std::size_t n_points, HighestIndex& highes
   faces.ends.push_back(faces.corners.size());
 }
 
-/// Chooses the names for the patches: groups; objects if groups make no difference; materials if objects make none either.
+/// Chooses the source of the names of patches: the first of groups, objects and materials with more than one name, else the first with one name.
 const std::vector<NameChange>* choose_naming(const Faces& faces) {
   const std::vector<NameChange>* first_with_name = nullptr;
   for (const std::vector<NameChange>& changes : faces.changes) {
@@ -98,7 +98,7 @@ const std::vector<NameChange>* choose_naming(const Faces& faces) {
   return first_with_name;
 }
 
-/// Reports namings that are not used: a file may name its parts in several ways, one of which becomes the patches.
+/// Reports namings that are not used. A file may name its parts in several ways, but only one of them becomes the patches.
 void tell_other_namings(const Faces& faces, const std::vector<NameChange>* chosen, const std::string& source, const RunContext& context) {
   constexpr std::array<std::string_view, k_n_namings> k_words = {"groups", "objects", "materials"};
   const auto names_of = [](const std::vector<NameChange>& changes) {

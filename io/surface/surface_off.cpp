@@ -1,4 +1,4 @@
-// OFF as text, with the header variants of Geomview, and the two variants of OFF BINARY in use.
+// Reads OFF as text, with the header variants of Geomview, and the two variants of OFF BINARY in use.
 #include "io/surface/surface_off.h"
 
 #include <cmath>
@@ -17,7 +17,7 @@
 namespace sterna::io {
 namespace {
 
-/// "0 0 0" and a line end; "0" and a line end.
+/// Shortest line of a vertex ("0 0 0" and a line end) and of a face ("0" and a line end).
 constexpr std::size_t k_min_off_vertex_bytes = 6;
 constexpr std::size_t k_min_face_bytes = 2;
 
@@ -32,7 +32,7 @@ OffHeader parse_header(TextScanner& scanner) {
   OffHeader header;
   const std::string_view first = scanner.peek();
   if (!first.empty() && (first.front() == '+' || (first.front() >= '0' && first.front() <= '9')) && first.find("OFF") == std::string_view::npos)
-    return header;  // the keyword is optional
+    return header;  // the keyword is optional: without it the header is plain
   const std::string_view word = scanner.token("\"OFF\"");
   std::string_view rest = word;
   const auto take = [&rest](std::string_view prefix) {
@@ -52,7 +52,7 @@ OffHeader parse_header(TextScanner& scanner) {
   return header;
 }
 
-/// Returns true if n extra numbers after a vertex can be colours and normals; other counts mean that lines are not one vertex each.
+/// Returns true if n extra numbers after a vertex can be colours and normals. Other counts mean that a line does not hold one vertex.
 bool is_count_of_extras(std::size_t n) { return n == 0 || n == 3 || n == 4 || n == 6 || n == 7; }
 
 Vec3 parse_vertex(TextScanner& scanner, const OffHeader& header) {
@@ -69,7 +69,7 @@ Vec3 parse_vertex(TextScanner& scanner, const OffHeader& header) {
 SurfaceSoup read_text(const FileBuffer& buffer, TextScanner& scanner, const OffHeader& header, const RunContext& context) {
   const std::size_t n_points = scanner.count("the number of vertices", k_min_off_vertex_bytes);
   const std::size_t n_faces = scanner.count("the number of faces", k_min_face_bytes);
-  scanner.rest_of_line();  // the number of edges: often wrong, sometimes missing, never needed
+  scanner.rest_of_line();  // skip the number of edges, which is often wrong, sometimes missing, and never needed
   SurfaceBuilder builder(buffer.source);
   builder.reserve_points(n_points);
   builder.reserve_polygons(n_faces);
@@ -95,7 +95,7 @@ SurfaceSoup read_text(const FileBuffer& buffer, TextScanner& scanner, const OffH
   return builder.finish(context);
 }
 
-/// Variants: Geomview's files are big-endian with a count of colour components after each face; pmp's are little-endian without it.
+/// Variants of OFF BINARY. Geomview's files are big-endian and have a count of colour components after each face; pmp's files are little-endian and do not.
 struct BinaryVariant {
   std::endian order;
   bool has_colours;
@@ -152,7 +152,7 @@ SurfaceSoup read_binary(const FileBuffer& buffer, std::size_t offset, const Bina
 }
 
 SurfaceSoup read_any_binary(const FileBuffer& buffer, std::size_t offset, const RunContext& context) {
-  std::optional<Error> error;  // error of the variant that is most common in practice
+  std::optional<Error> error;  // error for the variant that is most common in practice
   for (const BinaryVariant& variant : k_off_variants) {
     try {
       return read_binary(buffer, offset, variant, context);

@@ -1,5 +1,5 @@
-// The number of blocks, the three dimensions of each, then for each block all x, all y, all z. Text or binary of either byte order, the latter with or without
-// Fortran record sizes; the variant is derived from the first numbers and the size of the file.
+// A file has the number of blocks, the three dimensions of each, then for each block all x, all y, all z. It is text or binary of either byte order, the latter
+// with or without Fortran record sizes. The variant is derived from the first numbers and the size of the file.
 #include "io/surface/surface_plot3d.h"
 
 #include <algorithm>
@@ -21,10 +21,10 @@ namespace sterna::io {
 namespace {
 
 constexpr std::size_t k_probed_plot3d_bytes = 256;
-constexpr std::uint32_t k_count_record = 4;  // bytes: one integer
+constexpr std::uint32_t k_count_record = 4;  // bytes of a record with one integer
 constexpr std::string_view k_cut_hint = "the file may have been cut short: copy or write it again";
 
-/// A block as a network of points, without the constant index.
+/// A block as a network of points. The index that is constant in the block is left out.
 struct GridBlock {
   std::uint64_t n_points = 0, n_lines = 0;
   std::uint64_t size() const { return n_points * n_lines; }

@@ -8,8 +8,8 @@
 
 namespace sterna::io {
 
-/// Reads each block as a patch of quads, "patch_<number>"; one of its three dimensions is 1. Byte order, precision and a trailing IBLANK array are derived from
-/// the sizes.
+/// Reads each block as a patch of quads, "patch_<number>"; one of the three dimensions of a block must be 1. Byte order, precision and a trailing IBLANK array
+/// are derived from the sizes.
 /// \throws Error file_not_found, file_malformed (line or byte offset), unsupported_format (volume blocks), overflow, cancelled.
 SurfaceSoup read_plot3d(const std::filesystem::path& path, const RunContext& context);
 

@@ -1,4 +1,4 @@
-// PLY: a header that declares elements and their properties, then the elements as text or as bytes of either order.
+// A PLY file has a header that declares elements and their properties, then the elements as text or as bytes of either order.
 #include "io/surface/surface_ply.h"
 
 #include <array>
@@ -274,7 +274,7 @@ class ByteValues {
 
 // ---- elements
 
-/// Reads a list's length; reading its values ensures that it is proportional to the file size.
+/// Reads a list's length. It is not limited here: reading the values fails if the file does not contain them.
 template <class Values>
 std::size_t read_length(Values& values, const Property& property) {
   const std::int64_t n = values.integer(property.count_type, "the length of a list");

@@ -1,4 +1,4 @@
-// STL: text or binary is determined from the file size first, because binary files whose header begins with "solid" are common.
+// Text and binary STL are distinguished by the file size first, because binary files whose header begins with "solid" are common.
 #include "io/surface/surface_stl.h"
 
 #include <algorithm>
@@ -20,7 +20,7 @@ namespace {
 constexpr std::size_t k_header_bytes = 80;
 constexpr std::size_t k_first_facet = 84;
 constexpr std::size_t k_facet_bytes = 50;
-/// Bytes of the shortest facet in text; estimate for reserving memory.
+/// Bytes of a facet in text at least; used to reserve memory.
 constexpr std::size_t k_text_facet_bytes = 150;
 /// Text has no NUL byte; a binary file has one in its header or in the first few facets.
 constexpr std::size_t k_probed_bytes = 1024;
@@ -38,7 +38,7 @@ SurfaceSoup read_binary(const FileBuffer& buffer, std::size_t n_facets, const Ru
   builder.reserve_polygons(n_facets);
   for (std::size_t i = 0; i < n_facets; ++i) {
     if (i % k_stop_interval == 0) context.check_stop();
-    reader.skip(3 * sizeof(float));  // the normal is ignored: the order of the corners defines it
+    reader.skip(3 * sizeof(float));  // the normal is ignored, because the order of the corners defines it
     std::uint32_t corners[3];
     for (std::uint32_t& corner : corners) {
       Vec3 p;
@@ -60,7 +60,7 @@ std::string solid_name(std::string_view rest) {
 
 void read_facet(TextScanner& scanner, SurfaceBuilder& builder) {
   scanner.keyword("normal");
-  for (int i = 0; i < 3; ++i) scanner.skip_token("a facet's normal");  // may be nan; the order of the corners defines the normal
+  for (int i = 0; i < 3; ++i) scanner.skip_token("a facet's normal");  // the normal may be nan; the order of the corners defines it
   scanner.keyword("outer");
   scanner.keyword("loop");
   std::uint32_t corners[3];
@@ -100,7 +100,8 @@ SurfaceSoup read_text_solids(const FileBuffer& buffer, const RunContext& context
     } else if (equal_ignoring_case(word, "color")) {
       scanner.rest_of_line();
     } else if (n_solids > 0 && !is_open) {
-      // Complete solids followed by other data (Gmsh models were appended to STL files this way): the solids are read, the remainder is reported as ignored.
+      // Complete solids may be followed by other data (Gmsh models were appended to STL files this way). The solids are read, and the remainder is reported as
+      // ignored.
       context.warn(buffer.source + ": line " + std::to_string(scanner.line()) + ": the data after the last \"endsolid\" are not STL and are ignored");
       break;
     } else {

@@ -190,8 +190,8 @@ class Su2SurfaceReader {
     });
   }
 
-  /// Reads the elements. If markers have no faces, the faces among the elements are the surface; otherwise these are left out. The caller handles cells without
-  /// faces.
+  /// Reads the elements. If markers have no faces, the surface consists of the faces among the elements; otherwise these faces are left out. The caller handles
+  /// cells without faces.
   void read_elements(const SurfaceZone& zone) {
     const bool are_elements_the_surface = !std::exchange(has_marked_faces_, false);
     if (!zone.elements) return;

@@ -1,4 +1,4 @@
-// Part 1 nodes (or "0 ..." and a file .node beside it), part 2 facets, part 3 holes, part 4 regions; the last two do not describe the surface.
+// The file has four parts: nodes (or "0 ..." and a file .node beside it), facets, holes, and regions. The last two do not describe the surface.
 #include "io/surface/surface_tetgen.h"
 
 #include <algorithm>
@@ -94,7 +94,7 @@ class PlcParser {
     }
   }
 
-  /// Reports the two lists that may follow the facets: points in holes, points in regions.
+  /// Reports the lists of holes and of regions that may follow the facets.
   void tell_holes_and_regions() {
     LeftOut left_out;
     for (const char* what : {"points in holes", "points in regions"}) {

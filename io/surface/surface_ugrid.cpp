@@ -1,4 +1,4 @@
-// UGRID (AFLR3) as a surface: counts, coordinates, triangles, quads and their patch numbers; for volume cells only completeness is checked.
+// Reads UGRID (AFLR3) as a surface: counts, coordinates, triangles, quads and their patch numbers. For volume cells only completeness is checked.
 #include "io/surface/surface_ugrid.h"
 
 #include <array>

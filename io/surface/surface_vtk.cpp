@@ -62,7 +62,7 @@ void write(const TriMesh& mesh, const std::filesystem::path& path, Encoding enco
   require_count(4 * mesh.n_triangles(), std::numeric_limits<std::int32_t>::max(), "values of POLYGONS", "legacy VTK 3.0", path.string());
   const std::string n = std::to_string(mesh.n_triangles());
   const bool is_text = encoding == Encoding::text;
-  const std::string end = is_text ? "" : "\n";  // lines of text contain their line end
+  const std::string end = is_text ? "" : "\n";  // the lines of a text file contain their own line ends
   const std::vector<OutputSection> sections = {fixed_section(head(mesh, encoding)),
                                                is_text ? point_lines(mesh, "") : binary_points(mesh),
                                                fixed_section(end + "POLYGONS " + n + " " + std::to_string(4 * mesh.n_triangles()) + "\n"),

@@ -1,4 +1,4 @@
-// A title; then for each object its name, its parameters and its points in free format, separated by blanks, commas, slashes or line ends.
+// A file has a title; then for each object its name, its parameters and its points in free format, separated by blanks, commas, slashes or line ends.
 #include "io/surface/surface_wgs.h"
 
 #include <array>
@@ -18,7 +18,7 @@ namespace {
 
 constexpr std::size_t k_min_point_bytes = 6;  // "0 0 0" and a separator
 
-/// Transformation of an object into the global system, in this order: rotation about x, y, z (degrees), translation, scale.
+/// Transformation of an object into the global system. The order is: rotation about x, y, z (degrees), translation, scale.
 struct Placement {
   Vec3 rotation, translation, scale;
 
@@ -103,7 +103,7 @@ class WgsReader {
   const RunContext& context_;
   SurfaceBuilder builder_;
   std::size_t n_objects_ = 0;
-  std::array<std::string, 4> mirrored_;  ///< names of objects by plane; 0: none
+  std::array<std::string, 4> mirrored_;  ///< names of objects with a mirror image, by plane; 0: none
 };
 
 /// Replaces commas and slashes, which separate like blanks, except in quotes and in the title.

@@ -1,4 +1,4 @@
-// A standard LZ4 frame around a tree. Each node has a header, a table of strings (its name, then keys and values), data, children.
+// The file is a standard LZ4 frame around a tree. Each node has a header, a table of strings (its name, then keys and values), its data, and its children.
 #include "io/surface/surface_zml.h"
 
 #include <lz4frame.h>

@@ -60,7 +60,7 @@ char fluent_type(CellKind kind) {
   return '6';
 }
 
-/// Writes nodes from 1, reversed so that the normal points into the first cell; then the cells, 0 = outside.
+/// Writes the nodes (from 1), reversed so that the normal points into the first cell; then the two cells, with 0 for the outside.
 char* put_face(char* at, std::span<const NodeId> nodes, std::uint64_t inner, std::uint64_t outer) {
   *at++ = static_cast<char>('0' + nodes.size());
   *at++ = ' ';

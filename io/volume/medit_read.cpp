@@ -1,4 +1,4 @@
-// Medit readers. Sections come in any order, and elements may precede the vertices: node numbers are checked at the end.
+// Medit readers. Sections come in any order, and elements may precede the vertices, so node numbers are checked at the end.
 #include <algorithm>
 #include <cmath>
 #include <optional>
@@ -19,10 +19,10 @@ namespace {
 
 constexpr std::int32_t k_cookie = 1;
 constexpr std::int32_t k_swapped_cookie = 0x01000000;
-/// Codes of higher-order elements, whose loss would go unnoticed: triangles, quads, tetrahedra, hexahedra.
+/// Codes of higher-order triangles, quads, tetrahedra and hexahedra, which must not be lost without an error.
 constexpr std::array<std::int32_t, 4> k_curved_codes = {24, 27, 30, 33};
 
-/// An element: its node numbers in the file, less 1.
+/// An element as its node numbers in the file, less 1.
 template <std::size_t N>
 struct Row {
   std::array<NodeId, N> nodes;

@@ -1,4 +1,5 @@
-// The native container .sterna: the data of a run, complete or in part, for reading back and continuing the run. Layout in docs/sterna_format.md.
+// The native container .sterna. It stores the data of a run, complete or in part, so that they can be read back and the run continued. The layout is in
+// docs/sterna_format.md.
 #pragma once
 
 #include <array>
@@ -20,22 +21,21 @@ namespace sterna::io {
 struct StoredEnvelope {
   Column<VertexId, Vec3> direction;       ///< unit growth direction
   Column<VertexId, double> height;        ///< m along the direction; 0 = collapsed
-  Column<VertexId, double> target;        ///< m
-  Column<VertexId, double> eq1;           ///< m
-  Column<VertexId, double> cap;           ///< m
+  Column<VertexId, double> target;        ///< m, target height
+  Column<VertexId, double> eq1;           ///< m, height by eq. (1) without caps
+  Column<VertexId, double> cap;           ///< m, largest height allowed by the stages so far
   Column<VertexId, std::uint8_t> limit;   ///< number of volmesh::HeightLimit
   std::vector<double> first_height = {};  ///< m, if requested as a field: one value per vertex of the surface; else empty
 };
 
-/// Result of a tetrahedral engine inside closed boundaries (volmesh::TetraResult): its own points, numbered after the boundary points.
+/// Result of a tetrahedral engine inside closed boundaries (volmesh::TetraResult). The points of the result itself are numbered after the boundary points.
 struct StoredTetrahedra {
   std::uint64_t n_boundary_points = 0;
   std::vector<Vec3> new_points;
   std::vector<std::array<std::uint32_t, 4>> tetrahedra;
-  /// Nodes of the mesh's layers that had other coordinates when the tetrahedra were generated, ascending, and these coordinates: improvement has moved the
-  /// nodes since.
+  /// Nodes of the mesh's layers that improvement has moved since the tetrahedra were generated, ascending.
   std::vector<std::uint32_t> moved_nodes;
-  std::vector<Vec3> moved_points;  ///< m
+  std::vector<Vec3> moved_points;  ///< m, coordinates of these nodes when the tetrahedra were generated
 };
 
 /// Parts to write; parts that are nullptr or empty are left out. The strings are JSON.
@@ -63,7 +63,8 @@ struct SternaContent {
   std::string names() const;
 };
 
-/// Writes the parts. Streams in chunks packed in parallel: below 200 MB in addition to the parts. The bytes do not depend on the number of threads.
+/// Writes the parts. Packs chunks in parallel and streams them, which takes less than 200 MB in addition to the parts. The bytes do not depend on the number of
+/// threads.
 /// \throws Error mesh_invalid (columns whose lengths differ from their mesh, coordinates that are not finite), write_failed, cancelled
 void write_sterna(const SternaParts& parts, const std::filesystem::path& path, const RunContext& context);
 

@@ -147,7 +147,8 @@ class PartReader {
   StoredEnvelope envelope(std::size_t n_surface_vertices) const {
     StoredEnvelope envelope;
     envelope.direction.raw() = points(part::k_direction);
-    const std::size_t n = envelope.direction.size();  // vertices of walls with layers, with actuator discs cut in; callers that continue compare this number
+    const std::size_t n = envelope.direction.size();  // number of vertices of walls with layers, with actuator discs cut in; callers that continue the run
+                                                      // compare this number
     envelope.height.raw() = reals(part::k_height, n);
     envelope.target.raw() = reals(part::k_target, n);
     envelope.eq1.raw() = reals(part::k_eq1, n);

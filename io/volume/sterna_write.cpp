@@ -12,7 +12,8 @@
 namespace sterna::io {
 namespace {
 
-static_assert(sizeof(NodeId) == 4 && sizeof(Vec3) == 24 && sizeof(std::array<NodeId, 6>) == 24, "arrays are written as they are in memory");
+static_assert(sizeof(NodeId) == 4 && sizeof(Vec3) == 24 && sizeof(std::array<NodeId, 6>) == 24,
+              "arrays are written as they are in memory, so these types must have no padding");
 
 /// Joins strings, each terminated with NUL.
 std::string joined(const std::vector<std::string>& strings) {
@@ -48,7 +49,7 @@ class PartWriter {
   }
 
   void add_envelope(const StoredEnvelope& envelope, const TriMesh& surface) {
-    // Only for walls with layers: fewer vertices than the surface if it has other patches, more if actuator discs are cut into it.
+    // The envelope belongs to walls with layers only. It has fewer vertices than the surface if that has other patches, more if actuator discs are cut into it.
     const std::size_t n_lines = envelope.height.size();
     for (const std::size_t n : {envelope.direction.size(), envelope.target.size(), envelope.eq1.size(), envelope.cap.size(), envelope.limit.size()})
       require_size(n, n_lines, "values of an envelope");

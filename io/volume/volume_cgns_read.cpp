@@ -1,5 +1,5 @@
-// CGNS reader, docs/method/formats.md, "CGNS reader". Steps per zone: coordinates, sections (cells, boundary faces with their element numbers), boundary
-// conditions, which name the faces.
+// CGNS reader, docs/method/formats.md, "CGNS reader". Steps per zone: read coordinates; read sections (cells, and boundary faces with their element numbers);
+// read boundary conditions, which name the faces.
 #include <algorithm>
 #include <array>
 #include <map>
@@ -133,7 +133,7 @@ class CgnsReader {
         sizes.fail("found a zone of " + std::to_string(shape_[k]) + " nodes along an index");
     }
     read_points(zone);
-    if (is_structured) return read_structured(zone, rank);  // reads its walls only: prevents use of a volume mesh as a surface
+    if (is_structured) return read_structured(zone, rank);  // reads the walls of the zone only, so that a volume mesh is not used as a surface
     for (const CgnsNode& node : zone.children)
       if (node.label == "Elements_t") read_section(node);
     std::sort(faces_.begin(), faces_.end(), [](const Face& a, const Face& b) { return std::pair(a.element, a.index) < std::pair(b.element, b.index); });
@@ -189,7 +189,7 @@ class CgnsReader {
     if (start < 1 || end < start - 1 || end == std::numeric_limits<std::int64_t>::max())
       range.fail("found the element range " + std::to_string(start) + " to " + std::to_string(end));
     const std::int64_t n = end - start + 1;
-    if (type != k_cgns_mixed) size_of(section, type);  // rejects unsupported types by name
+    if (type != k_cgns_mixed) size_of(section, type);  // rejects unsupported types by their names
     const CgnsNode* const corners_node = section.find("ElementConnectivity");
     if (!corners_node) tree_.fail(section, "found no ElementConnectivity");
     const NumberArray corners = tree_.data(*corners_node);

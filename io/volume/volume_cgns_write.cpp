@@ -1,4 +1,4 @@
-// CGNS writer, docs/method/formats.md, "CGNS writer": the tree is described first, its arrays are streamed.
+// CGNS writer, docs/method/formats.md, "CGNS writer". The tree is described first; then its arrays are streamed.
 #include <algorithm>
 #include <cctype>
 #include <limits>
@@ -15,7 +15,7 @@ namespace sterna::io {
 namespace {
 
 constexpr std::string_view k_quad_suffix = "_quad";
-constexpr float k_hdf5_version = 3.4f;  ///< the fixed-type sections are valid in every version since
+constexpr float k_hdf5_version = 3.4f;  ///< since this version, the fixed-type sections are valid
 constexpr float k_adf_version = 2.54f;
 /// Zone name of meshio, and its section name for a mesh of tetrahedra only, which is all that meshio reads of CGNS; other programs accept any name.
 constexpr const char *k_zone_name = "Zone1", *k_only_section = "GridElements";
@@ -32,7 +32,7 @@ std::string cut_text(std::string text, std::size_t n) {
   return text;
 }
 
-/// Returns an ASCII name for ADF nodes: one underscore for each other character.
+/// Returns an ASCII name for ADF nodes, with one underscore for each other character.
 std::string ascii_name(std::string_view utf8) {
   std::string name;
   for (const char c : utf8) {
@@ -44,7 +44,7 @@ std::string ascii_name(std::string_view utf8) {
   return name;
 }
 
-/// Returns node names for the patches; patches with triangles and quads leave room for the suffix.
+/// Returns node names for the patches. Names of patches with both triangles and quads leave room for the suffix.
 std::vector<std::string> node_names(const HybridMesh& mesh, const FacesByPatch& faces, bool is_adf, const RunContext& context) {
   std::set<std::string, std::less<>> taken(k_taken_names.begin(), k_taken_names.end());
   std::vector<std::string> names;
@@ -237,8 +237,8 @@ class CgnsWriter {
     return node;
   }
 
-  /// Returns the connectivity of periodic sides, seen from each side: their nodes in the same order, and the translation to the other side. CGNS uses 32 bits
-  /// here.
+  /// Returns the connectivity of periodic sides, once from each side: their nodes in the same order, and the translation to the other side. CGNS uses 32-bit
+  /// numbers here.
   CgnsOutputNode connectivity() const {
     CgnsOutputNode all = cgns_node("ZoneGridConnectivity", "ZoneGridConnectivity_t");
     for (const PeriodicSides& sides : mesh_.periodic) {

@@ -8,8 +8,8 @@
 
 namespace sterna::io {
 
-/// Reads both binary versions, little-endian ones too, and text; with or without the node "region". Patch names come from the mesh, kinds from the .aboc or
-/// .bboc file beside it (same name), else from the names.
+/// Reads both binary versions (also little-endian ones) and text, with or without the node "region". Patch names come from the mesh, kinds from the .aboc or
+/// .bboc file of the same name beside it, else from the patch names.
 /// \throws Error file_malformed (byte offset or line), unsupported_format, file_not_found
 HybridMesh read_volume_edge(const std::filesystem::path& path, const RunContext& context);
 

@@ -57,7 +57,7 @@ void read_group(const FfaNode& group, HybridMesh& mesh, std::int64_t& n_dropped)
   else table.fail("found elements of the type " + quoted_excerpt(type) + ", expected tetra4, penta5, penta6 or hexa8");
 }
 
-/// Reads the boundary. In most files faces point into the fluid, so all are reversed; orient_mesh() corrects the remaining faces.
+/// Reads the boundary. In most files faces point into the fluid, so all faces are reversed; orient_mesh() then corrects the others.
 void read_boundary(const FfaNode& boundary, const std::map<std::string, PatchKind>& kinds, HybridMesh& mesh) {
   const std::string name = text_below(boundary, "boundary_name");
   const PatchId patch = find_or_add_patch(mesh.patches, name);

@@ -15,7 +15,7 @@
 namespace sterna::io {
 namespace {
 
-/// Fortran record markers are signed: longer records would be split into parts, which most readers do not support.
+/// Largest record, in bytes. Fortran record markers are signed: longer records would be split into parts, which most readers do not support.
 constexpr std::uint64_t k_max_record = k_max_int32 - 8;
 constexpr std::size_t k_name_bytes = 16, k_type_bytes = 4, k_text_bytes = 72;
 constexpr std::array<CellKind, 4> k_edge_kinds = {CellKind::hexahedron, CellKind::prism, CellKind::pyramid, CellKind::tetrahedron};

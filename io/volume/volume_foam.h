@@ -28,8 +28,8 @@ void require_foam_output(const std::filesystem::path& path);
 void require_foam_place(const std::filesystem::path& path);
 
 /// Reads text and binary files (labels of 32 and 64, scalars of 64 and 32 bits, either byte order), each optionally gzipped. Cells of 4 to 6 faces become
-/// tetrahedra, pyramids, prisms, hexahedra. Kinds of patches: wall, symmetry, symmetryPlane by their type; type patch by a group named after a kind ("inGroups
-/// 1(inflow)"), else farfield.
+/// tetrahedra, pyramids, prisms, hexahedra. The type of a patch (wall, symmetry, symmetryPlane) determines its kind. For the type `patch`, the kind is that of
+/// a group with the name of a kind ("inGroups 1(inflow)"), or farfield if there is no such group.
 /// \throws Error file_malformed (line or byte), unsupported_format (polyhedra), file_not_found
 HybridMesh read_volume_foam(const std::filesystem::path& path, const RunContext& context);
 

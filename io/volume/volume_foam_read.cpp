@@ -1,4 +1,4 @@
-// polyMesh reader: points, faces, their cells, patches; the cells are reconstructed from the faces.
+// polyMesh reader. It reads points, faces, their cells, and patches, and reconstructs the cells from the faces.
 #include <algorithm>
 #include <array>
 #include <cctype>
@@ -19,7 +19,7 @@ struct FoamPatch {
   Patch patch;
   std::uint64_t first_face = 0, n_faces = 0;
   std::string neighbour;  ///< neighbour of a cyclic patch
-  bool is_guess = false;  ///< neither type nor groups nor name state the kind
+  bool is_guess = false;  ///< neither the type nor the groups nor the name state the kind
 };
 
 PatchKind kind_of(std::string_view type, const std::vector<std::string>& groups, std::string_view name) {
@@ -219,7 +219,7 @@ HybridMesh read_volume_foam(const std::filesystem::path& path, const RunContext&
   const std::uint64_t n_faces = faces.first.size() - 1;
   context.progress(0.4);
   FoamFile owners(folder / "owner", "labelList", context);
-  faces.owner = owners.labels("the cell of a face", n_faces, n_faces);  // a cell has more than one face
+  faces.owner = owners.labels("the cell of a face", n_faces, n_faces);  // limit: a cell has more than one face
   if (faces.owner.size() != n_faces) owners.fail("found " + std::to_string(faces.owner.size()) + " owners for " + std::to_string(n_faces) + " faces");
   FoamFile neighbours(folder / "neighbour", "labelList", context);
   faces.neighbour = neighbours.labels("the cell of a face", n_faces, n_faces);

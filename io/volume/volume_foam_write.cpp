@@ -1,5 +1,5 @@
-// polyMesh writer: five files, and cellZones if there are zones. Internal faces first, ordered by their lower cell and then by the other cell; then the
-// boundary, patch by patch. Adds the minimum of case files without which no OpenFOAM tool starts.
+// polyMesh writer: five files, and cellZones if there are zones. Internal faces come first, ordered by their lower cell and then by the other cell; then the
+// boundary, patch by patch. The writer also adds the minimum of case files without which no OpenFOAM tool starts.
 #include <algorithm>
 #include <cctype>
 #include <iterator>
@@ -24,7 +24,8 @@ constexpr std::size_t k_max_label_text = 11;                             // with
 constexpr std::size_t k_max_face_text = 2 + 4 * k_max_label_text + 2;    // "4(1 2 3 4)\n"
 constexpr std::size_t k_max_point_text = 3 * (k_max_real_text + 1) + 3;  // "(1 2 3)\n"
 
-/// The second of two periodic sides in OpenFOAM's order: faces in the order of the first side, each beginning with the partner of the first face's first node.
+/// The second of two periodic sides in OpenFOAM's order. Its faces are in the order of the first side, and each begins with the partner of the first face's
+/// first node.
 struct CyclicSide {
   std::vector<std::uint32_t> triangles, quads;
   std::vector<std::uint8_t> triangle_begins, quad_begins;  ///< index of that node
@@ -170,7 +171,7 @@ class FoamWriter {
             }};
   }
 
-  /// Returns sections written by put(at, nodes, cell) for the faces of a patch: triangles, then quads.
+  /// Returns sections written by put(at, nodes, cell) for the faces of a patch, triangles before quads.
   template <class Put>
   void add_boundary(std::vector<OutputSection>& sections, std::size_t max_bytes, const Put& put) const {
     for (const PatchId patch : mesh_.patches.ids()) {

@@ -1,4 +1,4 @@
-// MSH 4.1 writer. Entities carry the groups: one surface per patch, one volume; all nodes belong to the volume.
+// MSH 4.1 writer. Entities carry the groups: there is one surface per patch, and one volume, to which all nodes belong.
 #include <algorithm>
 #include <cctype>
 #include <limits>
@@ -13,7 +13,7 @@ namespace sterna::io {
 namespace {
 
 constexpr std::size_t k_longest_msh_name = 127;  // Gmsh reads no more characters
-constexpr std::int32_t k_fluid_group = 10;       // distinct from the patch numbers, which some converters do not distinguish from it
+constexpr std::int32_t k_fluid_group = 10;       // differs from all patch numbers, because some converters mix up equal numbers of a patch and the fluid
 constexpr std::size_t k_max_msh_row = 9 * (k_max_integer_text + 1);
 
 std::int64_t msh_type(CellKind kind) {

@@ -10,7 +10,7 @@ namespace sterna::io {
 
 /// Writes NDIME, NPOIN, NELEM (prisms, pyramids, hexahedra, tetrahedra; VTK winding) and one marker per patch that has faces. Coordinates are the shortest
 /// decimals that read back to the same double. Characters that SU2 does not accept (blanks, commas, brackets) are replaced in patch names, with a warning.
-/// A mesh of columns and its explicit_cells() give the same file. Streams: below 100 MB of memory in addition to the mesh.
+/// A mesh of columns and its explicit_cells() give the same file. The file is streamed, which takes less than 100 MB of memory in addition to the mesh.
 /// \throws Error overflow (a count beyond SU2's 2^31-1), mesh_invalid (a coordinate is not finite, a face without patch), write_failed, cancelled.
 void write_volume_su2(const HybridMesh& mesh, const std::filesystem::path& path, const RunContext& context);
 

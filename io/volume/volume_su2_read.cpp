@@ -1,5 +1,5 @@
-// SU2 reader, docs/method/formats.md, "SU2 variants". Steps: index_zones finds the blocks; read_points; count_cells per chunk, which gives each chunk its
-// position in the arrays; read_cells; orient_mesh repairs windings. The text is never copied; chunks of lines are parsed in parallel.
+// SU2 reader, docs/method/formats.md, "SU2 variants". Steps: index_zones finds the blocks; read_points; count_cells counts the cells of each chunk, which gives
+// the chunk its position in the arrays; read_cells; orient_mesh repairs windings. The text is never copied; chunks of lines are parsed in parallel.
 #include <array>
 #include <optional>
 #include <utility>
@@ -20,7 +20,7 @@ struct Zone : Su2Zone {
   bool is_empty() const { return !points && !elements && markers.empty() && !has_dimension; }
 };
 
-/// First pass over the file: interprets keywords, skips blocks.
+/// First pass over the file. It interprets keywords and skips blocks.
 class ZoneIndexer {
  public:
   explicit ZoneIndexer(const FileBuffer& buffer) : source_(buffer.source), cursor_(buffer.text(), source_) {}
@@ -104,7 +104,7 @@ class ZoneIndexer {
     is_in_unknown_section_ = false;
     last_block_.clear();
     const bool is_first_header = zone_.is_empty() && cursor_.find_content();
-    if (is_first_header) return;  // IZONE= 1
+    if (is_first_header) return;  // this is the first IZONE=, which begins no new zone
     const auto missing = [&](const char* what) { cursor_.fail(std::string("the mesh ends here without ") + what); };
     if (!zone_.has_dimension) missing("NDIME=");
     if (!zone_.points) missing("NPOIN=");

@@ -9,8 +9,9 @@
 
 namespace sterna::io {
 
-/// Writes CDF-2, which every NetCDF since 3.6 reads, or CDF-5 (with a warning) if an array exceeds the 4 GiB of CDF-2; and "<stem>.bmap" beside it with the
-/// names and conditions of the markers. Markers count from 1 over the patches with faces. Streams: below 100 MB of memory in addition to the mesh.
+/// Writes CDF-2, which every NetCDF since 3.6 reads, or CDF-5 (with a warning) if an array exceeds the 4 GiB of CDF-2. Also writes "<stem>.bmap" beside it with
+/// the names and conditions of the markers. Markers count from 1 over the patches with faces. The file is streamed, which takes less than 100 MB of memory in
+/// addition to the mesh.
 /// \throws Error overflow (a node beyond 2^31-1: TAU's numbers have 32 bits), mesh_invalid, write_failed, cancelled.
 void write_volume_tau(const HybridMesh& mesh, const std::filesystem::path& path, const RunContext& context);
 

@@ -1,4 +1,4 @@
-// TAU reader: points, cells by kind, surface elements with their markers, marker names.
+// TAU reader. It reads points, cells by kind, surface elements with their markers, and marker names.
 #include <cmath>
 #include <map>
 
@@ -109,7 +109,7 @@ class TauReader {
     for (std::size_t i = 0; i < quads.size(); ++i) mesh_.boundary_quads.push_back({quads[i], patches_.at(markers.integer(triangles.size() + i))});
   }
 
-  /// Adds the markers that have faces: markers listed in the file, in its order, then others by number.
+  /// Adds the markers that have faces, first those listed in the file, in its order, then the others by number.
   void add_patches(const NumberArray& markers, std::uint64_t n) {
     std::map<std::int64_t, bool> is_added;
     for (std::uint64_t i = 0; i < n; ++i) is_added.emplace(markers.integer(i), false);

@@ -1,4 +1,4 @@
-// TAU writer: the dimensions, attributes and variables of the NetCDF file, described first, then streamed.
+// TAU writer. The dimensions, attributes and variables of the NetCDF file are described first, then streamed.
 #include <algorithm>
 #include <cctype>
 #include <limits>

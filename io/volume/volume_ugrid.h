@@ -10,7 +10,7 @@
 
 namespace sterna::io {
 
-/// Permutation for pyramids: ugrid_node[i] = cgns_node[order[i]]; the quad is 0 1 4 3, the apex 2. Its own inverse.
+/// Permutation for pyramids: ugrid_node[i] = cgns_node[order[i]]. The quad is 0 1 4 3, the apex 2. The permutation is its own inverse.
 inline constexpr std::array<std::uint8_t, 8> k_ugrid_pyramid = {0, 3, 4, 1, 2};
 
 /// Reads text (.ugrid) and binary files (b8, lb8, b8l, lb8l, b4, lb4). Names and kinds of patches come from the .mapbc file beside the mesh, else "patch_<id>",
@@ -20,8 +20,8 @@ inline constexpr std::array<std::uint8_t, 8> k_ugrid_pyramid = {0, 3, 4, 1, 2};
 HybridMesh read_volume_ugrid(const std::filesystem::path& path, const RunContext& context);
 
 /// Writes the variant given by the name, and FUN3D's .mapbc beside it (wing.mapbc for wing.lb8.ugrid). Boundary faces point inwards, patches are numbered from
-/// 1 as in the mesh. Streams: below 100 MB of memory in addition to the mesh. Text has the shortest decimals that read back to the same double; b4 and lb4
-/// round to single precision.
+/// 1 as in the mesh. The file is streamed, which takes less than 100 MB of memory in addition to the mesh. Text has the shortest decimals that read back to the
+/// same double; b4 and lb4 round to single precision.
 /// \throws Error overflow (a count beyond 2^31-1 with 32-bit integers), mesh_invalid, write_failed, cancelled, unsupported_format.
 void write_volume_ugrid(const HybridMesh& mesh, const std::filesystem::path& path, const RunContext& context);
 

@@ -1,4 +1,5 @@
-// UGRID writer: seven counts, nodes, faces (inwards, as in NASA's tools), their patch numbers, cells. Text and binary differ in the number format.
+// UGRID writer. The file has seven counts, nodes, faces (inwards, as in NASA's tools), the patch numbers of the faces, and cells. Text and binary differ in the
+// number format.
 #include <algorithm>
 #include <array>
 #include <limits>
@@ -113,7 +114,7 @@ int symmetry_axis(const HybridMesh& mesh, const FacesByPatch& faces, PatchId pat
   for (const std::uint32_t f : faces.quads(patch))
     for (const NodeId node : mesh.boundary_quads[f].nodes) box.add(mesh.points[node]);
   const Vec3 size = box.max - box.min;
-  int thinnest = 1;  // y, as for aircraft, if extents are equal
+  int thinnest = 1;  // y, as for aircraft, unless another axis is thinner
   for (const int axis : {0, 2})
     if (size[static_cast<std::size_t>(axis)] < size[static_cast<std::size_t>(thinnest)]) thinnest = axis;
   return thinnest;

@@ -1,4 +1,4 @@
-// VTKHDF reader: the datasets of the group, then the points and cells of each partition.
+// VTKHDF reader. It reads the datasets of the group, then the points and cells of each partition.
 #include <array>
 #include <map>
 #include <optional>

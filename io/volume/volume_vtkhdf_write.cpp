@@ -1,4 +1,4 @@
-// VTKHDF writer: the datasets of one group, each as sections by kind of cell.
+// VTKHDF writer. It writes the datasets of one group, each as sections by kind of cell.
 #include <algorithm>
 #include <array>
 

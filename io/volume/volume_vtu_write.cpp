@@ -1,4 +1,4 @@
-// VTU writer: the arrays of a mesh are functions of a range, so that the columns' cells are never stored.
+// VTU writer. The arrays of a mesh are functions of a range, so that the cells of the columns are never stored.
 #include <algorithm>
 #include <cstring>
 #include <limits>
@@ -19,10 +19,10 @@ namespace {
 /// A run of cells or faces of one type in the file.
 struct Run {
   int vtk_type = 0;
-  std::uint64_t n_nodes = 0;  ///< per cell
+  std::uint64_t n_nodes = 0;  ///< nodes per cell
   std::uint64_t n_cells = 0;
-  std::uint64_t first_cell = 0;   ///< in the file
-  std::uint64_t first_value = 0;  ///< in the connectivity
+  std::uint64_t first_cell = 0;   ///< number of the first cell in the file
+  std::uint64_t first_value = 0;  ///< index of the first value in the connectivity
 };
 
 enum : std::size_t { k_triangle_run = 4, k_quad_run = 5, k_n_runs = 6 };
@@ -40,7 +40,7 @@ class FileCells {
   std::uint64_t n_cells() const { return n_cells_; }
   std::uint64_t n_values() const { return n_values_; }
 
-  /// Calls f(run number, begin, end) for the part of each run covered by the file's cells [begin, end); begin, end count within the run.
+  /// Calls f(run number, begin, end) for each run that the file's cells [begin, end) touch. The arguments begin and end of f count within the run.
   template <class F>
   void for_each_run(std::uint64_t begin, std::uint64_t end, const F& f) const {
     for (std::size_t r = 0; r < k_n_runs; ++r) {
@@ -119,7 +119,7 @@ VtuArray offsets_array(VtuType type, const FileCells& cells) {
           }};
 }
 
-/// Generates the values [begin, end). Block boundaries may lie within cells: all cells touched are generated, and clipped.
+/// Generates the values [begin, end). A block may begin or end within a cell: all cells that it touches are generated and then clipped.
 template <class T>
 VtuArray connectivity_array(VtuType type, const FileCells& cells) {
   return {.name = "connectivity", .type = type, .n_values = cells.n_values(), .fill = [&cells](std::uint64_t begin, std::uint64_t end, char* out) {

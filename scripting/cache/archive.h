@@ -1,5 +1,5 @@
-// Serialisation of values to bytes, for hashing (keys) and for storage (entries of the cache), both by the same description. Exact to the bit: the value read
-// back equals the value written.
+// Serialisation of values to bytes. The same description serves hashing (keys) and storage (entries of the cache). It is exact to the bit: the value read back
+// equals the value written.
 #pragma once
 
 #include <array>

@@ -1,7 +1,8 @@
-// Caching of results that depend on a function of a script. The function enters a key by its returned values, and the points of evaluation depend on earlier
-// return values. An entry therefore stores its points: a lookup evaluates the script's own function at the same points in the same order as the computation
-// would. If all values equal the stored ones, the entry is the result, because nothing else differs. A value that differs leads to another entry, whose key
-// holds the values so far. The function receives exactly the same calls as without a cache, so even a function that counts its calls behaves the same.
+// Caches results that depend on a function of a script. Such a function cannot be part of a key except by the values that it returns, and the points of
+// evaluation depend on earlier values. An entry therefore stores its points. A lookup evaluates the script's own function at the same points in the same order
+// as the computation would. If all values equal the stored ones, the entry is the result, because nothing else differs. A value that differs leads to another
+// entry, whose key holds the values so far. The function receives exactly the same calls as without a cache, so even a function that counts its calls behaves
+// the same.
 #pragma once
 
 #include <cmath>
@@ -32,7 +33,7 @@ class AskedFunction {
   double operator()(const Point& p) {
     if (n_asked_ < transcript_.questions.size()) {
       if (transcript_.questions[n_asked_] == p) return transcript_.answers[n_asked_++];
-      is_as_known_ = false;  // cannot happen, as the points follow from the values. If it did, the function itself gives the right value
+      is_as_known_ = false;  // cannot happen, because the points follow from the values; if it did, the function itself would give the right value
       transcript_.questions.resize(n_asked_);
       transcript_.answers.resize(n_asked_);
     }
@@ -52,16 +53,16 @@ class AskedFunction {
   bool is_as_known_ = true;
 };
 
-/// As cached() of stage_cache.h, for the result of `make`, which calls the function. `key` becomes the key of the result, which includes the function's values;
-/// or nothing.
-/// \pre reuse.cache and key. Errors of the function are passed on.
+/// Returns the result of `make`, which calls the function, from the cache if possible, like cached() of stage_cache.h. `key` becomes the key of the result,
+/// which includes the function's values; or it becomes empty.
+/// \pre reuse.cache and key are set. Errors of the function are passed on.
 template <class T>
 T cached_by_answers(const Reuse& reuse, std::string_view stage, std::string_view what, std::optional<ContentKey>& key, const SizeFunction& function,
                     const RunContext& context, const std::function<T(const SizeFunction&)>& make, const std::function<void(ByteSink&, const T&)>& write,
                     const std::function<T(ByteSource&)>& read) {
   const auto same = [](double a, double b) { return std::memcmp(&a, &b, sizeof a) == 0; };
   Transcript known;          // evaluations of the function in this run so far
-  std::size_t n_of_key = 0;  // number of them that are in the key
+  std::size_t n_of_key = 0;  // number of these evaluations that are in the key
   for (;;) {
     Transcript stored;
     std::optional<T> value;

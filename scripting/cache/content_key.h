@@ -1,4 +1,4 @@
-// Keys by content, independent of how the content was made: equal keys, equal results. Not for security. Keys of values are in values/value_keys.h.
+// Keys by content, independent of how the content was made: equal keys mean equal results. Not for security. Keys of values are in values/value_keys.h.
 #pragma once
 
 #include <cstddef>

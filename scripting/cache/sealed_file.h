@@ -1,4 +1,5 @@
-// Values in a separate file, sealed by their hash: entries of the cache, and the data that the reference case of a series stores for the other cases.
+// Values in a separate file, sealed by their hash. Such files hold entries of the cache, and the data that the reference case of a series stores for the other
+// cases.
 //   head     16 bytes magic, u32 version of this layout, u32 0x01020304, 16 bytes key, u64 bytes of content
 //   content  bytes of the writer (archive.h)
 //   seal     16 bytes XXH3-128 of content and head
@@ -17,7 +18,7 @@
 
 namespace sterna::scripting {
 
-/// To be incremented if stored data change their meaning without a change of their structs or keys.
+/// Version of the stored data. Increment it if they change their meaning without a change of their structs or keys.
 inline constexpr std::uint32_t k_sealed_schema = 1;
 
 /// \throws Error(write_failed, cancelled)

@@ -89,7 +89,7 @@ bool StageCache::find(std::string_view stage, const ContentKey& key, const std::
     if (errno != ENOENT) context.warn("cache: " + path.string() + " cannot be opened: " + std::generic_category().message(errno));
     return false;
   }
-  ::flock(file.descriptor(), LOCK_SH | LOCK_NB);  // held until the file is closed; without the lock the file could only be evicted too early
+  ::flock(file.descriptor(), LOCK_SH | LOCK_NB);  // the lock is held until the file is closed; without it the file could only be evicted too early
   if (const std::string problem = file.problem(key, context); !problem.empty()) {
     remove_damaged(path, stage, problem, context);
     return false;
@@ -162,7 +162,7 @@ std::vector<CacheEntry> StageCache::entries(const std::filesystem::path& folder)
       try {
         read_value(*open.content(), entry.stage);
       } catch (const Error&) {
-        entry.stage.clear();  // according to the interface: damaged
+        entry.stage.clear();  // as the interface states, an empty name means a damaged file
       }
     }
     result.push_back(std::move(entry));

@@ -1,5 +1,5 @@
-// Results of stages on disk, by the content of their inputs. Usable by several processes at once, on one machine or on shared disks. No entry is trusted before
-// verification.
+// Stores results of stages on disk by the content of their inputs. Several processes may use a cache at once, on one machine or on shared disks. No entry is
+// trusted before verification.
 #pragma once
 
 #include <cstdint>
@@ -44,7 +44,7 @@ class StageCache {
   /// \throws Error(cancelled)
   bool find(std::string_view stage, const ContentKey& key, const std::function<void(ByteSource&)>& read, const RunContext& context) const;
   /// Stores the output of `write`. The entry is written atomically. A full or write-protected disk only gives a warning: the run continues. Then the least
-  /// recently used entries are evicted until the limit holds; never this entry, nor one that is being read.
+  /// recently used entries are evicted until the limit holds, but never the new entry, nor one that is being read.
   /// \throws Error(cancelled)
   void store(std::string_view stage, const ContentKey& key, const std::function<void(ByteSink&)>& write, const RunContext& context) const;
 
@@ -89,7 +89,7 @@ T cached(const Reuse& reuse, std::string_view stage, std::string_view what, cons
   return value;
 }
 
-/// As above, for types supported by archive.h.
+/// The same for types supported by archive.h.
 template <class T>
 T cached(const Reuse& reuse, std::string_view stage, std::string_view what, const std::optional<ContentKey>& key, const RunContext& context,
          const std::function<T()>& make, const std::function<bool(const T&)>& may_keep = {}) {

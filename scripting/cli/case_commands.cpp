@@ -19,9 +19,9 @@
 namespace sterna::scripting {
 namespace {
 
-constexpr double k_case_read_end = 0.6;  ///< fraction of the progress
+constexpr double k_case_read_end = 0.6;  ///< fraction of the progress after reading the mesh
 
-/// All numeric and string settings of a case, with the structs that they are written to.
+/// All numeric and string settings of a case, and the structs to which they are written.
 struct CaseSettings {
   FoamOptions foam;
   Su2Options su2;
@@ -75,7 +75,7 @@ CaseBoundaries boundaries_of(const std::vector<std::pair<std::string, OptionOver
   return boundaries;
 }
 
-/// Returns the name of the mesh that is read, for the configuration; SU2 reads two formats.
+/// Returns the name of the mesh that SU2 reads, for the configuration; SU2 reads two formats.
 std::string mesh_beside(const CaseCommand& command) {
   const std::filesystem::path mesh = command.input;
   if (!problem_of_su2_mesh(mesh.string()).empty()) return {};
@@ -149,7 +149,7 @@ int execute(const CaseCommand& command, const CommandContext& context) {
   if (!command.reference.empty()) request.reference = reference_of_model(command.reference, request.options, context.run.part("reference", 0.0, 0.1));
   set_reference(request.options, request.reference);
   if (!command.moment_origin.empty()) request.reference.moment_origin = point_of_words(command.moment_origin);
-  CaseProblems problems;  // problems that do not depend on the mesh, before it is read
+  CaseProblems problems;  // problems that do not depend on the mesh are reported before it is read
   if (is_foam) require_foam_flow(settings.foam, request.flow, problems);
   else require_su2_flow(request.flow, std::nullopt, problems);
   if (const std::string problem = problem_of_su2_mesh(settings.su2.mesh); !problem.empty()) problems.add(problem);

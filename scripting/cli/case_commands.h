@@ -1,4 +1,4 @@
-// `sterna foam-case` and `sterna su2-config`: the functions of mesh:foam_case and mesh:su2_config, for a mesh from a file.
+// `sterna foam-case` and `sterna su2-config`: apply the functions of mesh:foam_case and mesh:su2_config to a mesh from a file.
 #pragma once
 
 #include <filesystem>
@@ -21,11 +21,11 @@ struct CaseCommand {
   CaseSolver solver = CaseSolver::openfoam;
   std::string input;                                                ///< mesh file
   std::filesystem::path output;                                     ///< folder of the case, or the configuration file
-  OptionOverrides options;                                          ///< options of the solver, of all cases, of the flow
+  OptionOverrides options;                                          ///< options of the solver, options common to all cases, and options of the flow
   std::string reference;                                            ///< model file that describes the wing; empty: none
   std::string moment_origin;                                        ///< "15,0,0"; empty: from the reference
   std::vector<std::pair<std::string, OptionOverrides>> boundaries;  ///< conditions by names of patches
-  OptionOverrides kinds;                                            ///< pattern of names, kind of patches
+  OptionOverrides kinds;                                            ///< pattern of patch names, kind of these patches
 };
 
 struct CaseCommands {

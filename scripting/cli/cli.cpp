@@ -1,4 +1,4 @@
-// Parsing only: the commands are executed in commands.cpp. CLI11 is slow to compile, so only the cli*.cpp include it.
+// This file only parses; the commands are executed in commands.cpp. CLI11 is slow to compile, so only the cli*.cpp include it.
 #include "scripting/cli/cli.h"
 
 #include <unistd.h>
@@ -45,7 +45,7 @@
 namespace sterna::scripting {
 namespace {
 
-/// A larger number of threads is a typing error: far above any machine, far below the limit of the system.
+/// Largest accepted number of threads. It is far above that of any machine and far below the limit of the system, so a larger number is a typing error.
 constexpr int k_max_threads = 1024;
 constexpr int k_max_tasks = 1000000;
 
@@ -58,12 +58,12 @@ struct CommonSettings {
   bool only_options = false;
 };
 
-/// The request of the command line: one command, and the file for the picture of a failure.
+/// The request of the command line: one command, and a file for the picture of a failure.
 struct Request {
   std::function<int(const CommandContext&)> execute;
   std::filesystem::path trouble;  ///< path of the picture: beside the output, or beside the input of commands that write nothing
   bool is_prompt = false;
-  bool tells_itself = false;  ///< the printed findings on the input are its result: the log omits them, unless it is verbose
+  bool tells_itself = false;  ///< the command prints the findings on the input as its result, so the log omits them unless it is verbose
 };
 
 void add_common_options(CLI::App& app, CommonSettings& common) {
@@ -223,7 +223,7 @@ void add_mesh_command(CLI::App& app, MeshCommand& mesh, OptionOverrides& set, Re
   OptionTable of_models = sterna::options_of(reading);
   const std::string unit_help = "length of 1 unit of the file in metres (for models: " + std::ranges::find(of_models, "unit", &Option::name)->range_text() +
                                 ", instead of the unit in the file's header)";
-  for (const char* const name : {"fluid", "unit"}) {  // options that are common with reading a model
+  for (const char* const name : {"fluid", "unit"}) {  // options that also apply to reading a model
     const auto shared = std::ranges::find(of_triangulations, name, &Option::name);
     of_both.insert(of_both.begin(), *shared);
     if (shared->name == "unit") of_both.front().help = unit_help;
@@ -568,7 +568,9 @@ std::string misspelling(const CLI::App& app, int argc, const char* const* argv) 
       return with_suggestion(command ? "option of " + command->get_name() : "option", name, known);
     const CLI::Option* option = (command ? *command : app).get_option_no_throw(name);
     if (!option) option = app.get_option_no_throw(name);
-    if (!command && option && option->get_items_expected_min() > 0 && word.find('=') == std::string::npos) ++i;  // its value is no command
+    if (!command && option && option->get_items_expected_min() > 0 && word.find('=') == std::string::npos)
+      ++i;  // the value of an option is not the name of a
+            // command
   }
   return {};
 }
@@ -650,7 +652,7 @@ int parse_and_execute(int argc, const char* const* argv) {
 }  // namespace
 
 int run_command_line(int argc, const char* const* argv) noexcept {
-  // Before the console exists, and for failures without an Error, stderr is the only output.
+  // Before the console exists, and for exceptions other than Error, stderr is the only output.
   try {
     std::vector<const char*> arguments(argv, argv + argc);
     if (argc > 0 && std::filesystem::path(argv[0]).filename() == "pentagrow") arguments.insert(arguments.begin() + 1, "pentagrow");
@@ -661,7 +663,7 @@ int run_command_line(int argc, const char* const* argv) noexcept {
   } catch (const Error& error) {
     std::fprintf(stderr, "error: %s\n", error.what());
     return exit_status_of(error.code());
-  } catch (const std::bad_alloc&) {  // no string is allocated here
+  } catch (const std::bad_alloc&) {  // avoid allocating a string here
     std::fputs("error: not enough memory\n  try: a larger limit (ulimit -v, the job's memory)\n", stderr);
   } catch (const std::exception& error) {
     std::fprintf(stderr, "error: %s\n", Error(foreign_error(error, "sterna")).what());

@@ -88,7 +88,7 @@ int print_volume_info(const InputPath& input, double unit, const CommandContext&
   context.console.print("  " + describe(value));
   print_box(context, box);
   print_patches(context, value.mesh.patches, sizes, value.unknown_kinds);
-  // Brief check: without the slow exact test for intersections.
+  // This is a brief check, without the slow exact test for intersections.
   const CheckReport report = check(value.mesh, {.intersections = false}, context.run.part("check", 0.3, 1.0));
   context.console.print(
       "  check    " +
@@ -126,7 +126,8 @@ void print_triangle_quality(const CommandContext& context, const TriMesh& mesh) 
 }
 
 int print_surface_info(const InputPath& input, double unit, const CommandContext& context) {
-  // Joined in the same way as by `sterna mesh`, but without the slow exact test for intersections; the caller reports defects that prevent joining.
+  // The files are joined in the same way as by `sterna mesh`, but without the slow exact test for intersections. The caller reports defects that prevent
+  // joining.
   surfmesh::StitchOptions options;
   options.unit = unit;
   options.allow_open = true;
@@ -179,7 +180,7 @@ void add_sources(const MeshCommand& command, const TriMesh& wall, volmesh::MeshC
   for (const std::string& text : command.wakes) options.sources.push_back(wake_of_text(text, wall));
 }
 
-/// Continues from the last step. Options that are given win over those of the file.
+/// Continues from the last step. Options of the command line override those of the file.
 MeshValue continue_mesh(const StageContent& steps, const MeshCommand& command, const Reuse& reuse, const CommandContext& context) {
   if (!command.stages.empty())
     throw Error({.code = ErrorCode::bad_argument,
@@ -208,7 +209,7 @@ MeshValue continue_mesh(const StageContent& steps, const MeshCommand& command, c
         std::none_of(open.begin(), open.end(), [&](const Option& o) { return o.name == option.name; }))
       refuse_done(name);
   set_options(open, command.options, context);
-  if (is_given(command, "farfield", "farfield_surface")) {  // else the file holds it
+  if (is_given(command, "farfield", "farfield_surface")) {  // otherwise the farfield is in the file
     SurfaceValue inputs;
     read_farfield_of(options, inputs, context.run);
   }
@@ -266,7 +267,7 @@ std::vector<volmesh::SizeSource> sources_of(const std::vector<std::string>& text
   return sources;
 }
 
-/// With --remesh: remeshes the surface with the fineness of the family; sources refine the surface as they do the volume.
+/// With --remesh: remeshes the surface with the fineness of the family. Sources refine the surface in the same way as the volume.
 void remesh_wall(const MeshCommand& command, const volmesh::MeshCase& volume, SurfaceValue& wall, const Reuse& reuse, const CommandContext& context) {
   if (!command.is_remeshed) {
     if (!command.remesh.empty() && !command.is_auto)
@@ -281,7 +282,7 @@ void remesh_wall(const MeshCommand& command, const volmesh::MeshCase& volume, Su
   wall = remeshed(wall, recipe, {}, context.run, reuse);
 }
 
-/// Returns the options that `sterna mesh` has for other inputs or with other flags.
+/// Returns the options that `sterna mesh` has only for other inputs or with other flags.
 std::vector<OptionsElsewhere> elsewhere_of(const MeshCommand& command, bool is_model, AutoSurface& unused) {
   const std::string& name = command.inputs.front();
   std::vector<OptionsElsewhere> result;
@@ -297,7 +298,7 @@ std::vector<OptionsElsewhere> elsewhere_of(const MeshCommand& command, bool is_m
   return result;
 }
 
-/// Completes the options: values that follow from combinations of options, and heights derived from flow conditions.
+/// Completes the options: sets values that follow from combinations of options, and derives heights from flow conditions.
 void complete_options(volmesh::MeshCase& options, const MeshCommand& command, const RunContext& context) {
   choose_solve_for(
       options, [&](std::string_view name) { return is_given(command, "envelope", name); }, "reading the options");
@@ -338,8 +339,8 @@ SurfaceValue wall_of(const MeshCommand& command, const std::vector<InputPath>& i
   return read_wall(inputs, asked.stitching, context.run.part("surface", 0.0, k_read_end));
 }
 
-/// Generates the volume mesh. With --auto a remeshed surface is tried as well if the given triangles allow no envelope or no tetrahedra; it is tried first if
-/// they are slivers.
+/// Generates the volume mesh. With --auto a remeshed surface is tried as well if the given triangles allow no envelope or no tetrahedra. The remeshed surface
+/// is tried first if the triangles are slivers.
 MeshValue fill(const MeshCommand& command, SurfaceValue wall, const volmesh::MeshCase& options, double begin, const Reuse& reuse,
                const CommandContext& context) {
   const RunContext part = context.run.part("volume_mesh", begin, k_mesh_end);
@@ -364,7 +365,8 @@ MeshValue fill(const MeshCommand& command, SurfaceValue wall, const volmesh::Mes
   }
 }
 
-/// Generates the mesh of models: their faces are meshed first. --unit is then that of reading CAD; the options of joining triangulations are unknown.
+/// Generates the mesh of models, whose faces are meshed first. For models --unit is an option of reading CAD, and options of joining triangulations are
+/// unknown.
 MeshValue make_mesh_of_models(const MeshCommand& command, const std::vector<InputPath>& inputs, const Reuse& reuse, const CommandContext& context) {
   if (command.is_repaired || command.is_wrapped)
     throw Error({.code = ErrorCode::bad_argument,
@@ -455,11 +457,11 @@ CaseAddress case_of_text(const std::string& text) {
   return address;
 }
 
-/// Returns all parts of the command line that can change the results of a script: a worker gets the same.
+/// Returns all parts of the command line that can change the results of a script. A worker gets the same parts.
 std::vector<std::string> worker_words(const RunCommand& command, const RunContext& run) {
   std::vector<std::string> words;
   for (const auto& [name, value] : command.overrides)
-    if (name != "retry" && name != "series.retry") words.push_back("--set=" + name + "=" + value);  // the choice of cases to run again does not affect a case
+    if (name != "retry" && name != "series.retry") words.push_back("--set=" + name + "=" + value);  // a case does not depend on these two
   words.push_back("--seed=" + std::to_string(run.seed()));
   for (const auto& [name, value] : command.arguments) words.push_back(name + "=" + value);
   if (!command.input_folder.empty()) words.push_back("--look-in=" + command.input_folder.string());
@@ -494,7 +496,7 @@ int execute(const RunCommand& command, const CommandContext& context) {
 int execute(const MeshCommand& command, const CommandContext& context) {
   for (const auto& output : command.outputs) require_mesh_output(output);
   WriteOptions writing;
-  CommandContext of_files = context;  // --show-options shows those of the stages, later
+  CommandContext of_files = context;  // with --show-options, the options of the stages are shown later
   of_files.only_options = false;
   set_options(sterna::options_of(writing), command.writing, of_files);
   const Clock::time_point start = Clock::now();
@@ -557,7 +559,7 @@ int execute(const HalfCommand& command, const CommandContext& context) {
 
 namespace {
 
-/// Reports before the work starts why a file cannot be written; empty names are no files.
+/// Reports before the work starts why a file cannot be written. An empty name stands for no file.
 void require_writable(const std::filesystem::path& path) {
   if (!path.empty()) io::AtomicFile probe(path);
 }
@@ -646,7 +648,7 @@ int execute(const RemeshCommand& command, const CommandContext& context) {
 
 int execute(const UnionCommand& command, const CommandContext& context) {
   for (const std::string& name : command.inputs) {
-    std::error_code none;  // for missing files: they are no input, or not yet an output
+    std::error_code none;  // missing files are no input, or not yet an output
     if (std::filesystem::equivalent(name, command.output, none))
       throw Error({.code = ErrorCode::bad_argument,
                    .attempted = "union",

@@ -28,12 +28,12 @@ struct CacheChoice {
 
 struct RunCommand {
   std::filesystem::path script;
-  OptionOverrides overrides;  ///< --set
+  OptionOverrides overrides;  ///< assignments of --set
   CacheChoice cache;
-  int tasks = 0;                       ///< --tasks: cases of a series at a time; 0 = as given in the script
+  int tasks = 0;                       ///< --tasks: number of cases of a series that run at the same time; 0 = as given in the script
   bool retries = false;                ///< --retry: failed cases of a series run again
   std::string series_case;             ///< --series-case NAME/INDEX: this process is a worker
-  OptionOverrides arguments;           ///< NAME=VALUE
+  OptionOverrides arguments;           ///< assignments NAME=VALUE
   std::filesystem::path input_folder;  ///< --look-in: this process was started by another one in a folder of its own, and ends with its parent
 };
 
@@ -44,29 +44,29 @@ struct MeshCommand {
   std::vector<std::pair<std::string, OptionOverrides>> patches;  ///< pattern of names, options
   std::filesystem::path stats;
   std::filesystem::path stages;       ///< .sterna file for the steps of the run; empty: none
-  std::vector<std::string> discs;     ///< disc_of_text
-  std::vector<std::string> periodic;  ///< periodic_of_text
-  std::vector<std::string> sources;   ///< source_of_text
-  std::vector<std::string> sheets;    ///< wake_sheet_of_text
-  std::vector<std::string> wakes;     ///< wake_of_text
+  std::vector<std::string> discs;     ///< strings for disc_of_text
+  std::vector<std::string> periodic;  ///< strings for periodic_of_text
+  std::vector<std::string> sources;   ///< strings for source_of_text
+  std::vector<std::string> sheets;    ///< strings for wake_sheet_of_text
+  std::vector<std::string> wakes;     ///< strings for wake_of_text
   bool is_half = false;               ///< the surface is cut to its half
   bool is_repaired = false;           ///< --repair: the files are repaired first
   bool is_wrapped = false;            ///< --wrap: the files are wrapped first
-  bool is_auto = false;               ///< --auto: as they are, else repaired, else wrapped; remeshed if their triangles are slivers
+  bool is_auto = false;               ///< --auto: files are used as they are, or repaired, or wrapped; if triangles are slivers, they are remeshed
   OptionOverrides half;               ///< --set half.axis=z; only with is_half
   bool is_remeshed = false;           ///< the surface is remeshed first
   OptionOverrides remesh;             ///< --set remesh.max_edge=0.1; only with is_remeshed
   OptionOverrides crevices;           ///< --fill-crevices 0.1 as {"width", "0.1"} and --set fill_crevices.angle=45; empty: nothing is filled
   OptionOverrides writing;            ///< --numbering and --set write.numbering=both
   CacheChoice cache;
-  std::vector<std::string> given;  ///< given_options
+  std::vector<std::string> given;  ///< result of given_options
 };
 
 struct SurfaceCommand {
   std::vector<std::string> inputs;
   std::vector<std::filesystem::path> outputs;
   std::vector<std::pair<std::string, OptionOverrides>> patches;  ///< pattern of names, options
-  std::vector<std::string> sources;                              ///< source_of_text
+  std::vector<std::string> sources;                              ///< strings for source_of_text
   OptionOverrides options;
   CacheChoice cache;
   bool is_auto = false;  ///< --auto: crossing or open parts are repaired or wrapped
@@ -88,7 +88,7 @@ struct RemeshCommand {
   std::string input;
   std::vector<std::filesystem::path> outputs;
   std::vector<std::pair<std::string, OptionOverrides>> patches;  ///< pattern of names, options
-  std::vector<std::string> sources;                              ///< source_of_text
+  std::vector<std::string> sources;                              ///< strings for source_of_text
   OptionOverrides options;
   CacheChoice cache;
 };
@@ -102,8 +102,8 @@ struct UnionCommand {
 struct RepairCommand {
   std::vector<std::string> inputs;
   std::filesystem::path output;
-  std::filesystem::path changes;  ///< VTU of the changed facets; empty: none
-  std::filesystem::path report;   ///< JSON of all changes; empty: none
+  std::filesystem::path changes;  ///< VTU file for the changed facets; empty: none
+  std::filesystem::path report;   ///< JSON file for all changes; empty: none
   OptionOverrides options;
   CacheChoice cache;
 };
@@ -111,8 +111,8 @@ struct RepairCommand {
 struct WrapCommand {
   std::vector<std::string> inputs;
   std::filesystem::path output;
-  std::filesystem::path changes;  ///< VTU of the closures; empty: none
-  std::filesystem::path report;   ///< JSON of closures, leaks, distances; empty: none
+  std::filesystem::path changes;  ///< VTU file for the closures; empty: none
+  std::filesystem::path report;   ///< JSON file for closures, leaks and distances; empty: none
   OptionOverrides options;
   CacheChoice cache;
 };
@@ -122,14 +122,14 @@ struct CheckCommand {
   bool is_json = false;
   std::vector<std::string> models;  ///< --model: files with which the walls are compared (G17, G18)
   CheckSettings options;
-  std::vector<std::string> gates;  ///< set_gate_limits
-  std::filesystem::path cells;     ///< VTU of the quality of cells; empty: none
-  std::vector<std::string> given;  ///< given_options
+  std::vector<std::string> gates;  ///< strings for set_gate_limits
+  std::filesystem::path cells;     ///< VTU file for the quality of cells; empty: none
+  std::vector<std::string> given;  ///< result of given_options
 };
 
 struct InfoCommand {
   std::string input;
-  std::string unit;  ///< empty: not given; as given in the file for models, else metres
+  std::string unit;  ///< unit of the file; empty: not given, which means the unit in the file for models, else metres
   bool is_json = false;
 };
 
@@ -139,10 +139,11 @@ struct ConvertCommand {
   ConvertSettings settings;
   OptionOverrides options;         ///< for models: --unit, --tolerance ...
   OptionOverrides writing;         ///< for volume meshes: --numbering
-  std::vector<std::string> given;  ///< given_options
+  std::vector<std::string> given;  ///< result of given_options
 };
 
-/// `sterna info` and `sterna check` of a model file (model_commands.cpp): its content with its reference data; closed or not, with every open edge.
+/// `sterna info` and `sterna check` of a model file (model_commands.cpp). The first prints the content of the model with its reference data; the second prints
+/// whether the model is closed, with every open edge.
 int print_model_info(const InfoCommand& command, const CommandContext& context);
 int check_model(const CheckCommand& command, const CommandContext& context);
 /// `sterna union` of models, and `sterna convert` of a model to a model. `options` are checked against each command's schema.
@@ -156,7 +157,7 @@ OptionTable model_surface_options(surfmesh::SurfaceMeshOptions& surface, ReadCad
 /// \throws Error(write_failed) if the folder cannot be created
 std::unique_ptr<const StageCache> cache_of(const CacheChoice& choice);
 
-/// Each throws Error; the caller prints the error and converts its code to the exit status.
+/// Executes a command. Each overload throws Error; the caller prints the error and converts its code to the exit status.
 int execute(const RunCommand& command, const CommandContext& context);
 int execute(const MeshCommand& command, const CommandContext& context);
 int execute(const SurfaceCommand& command, const CommandContext& context);
@@ -172,8 +173,8 @@ int execute(const ConvertCommand& command, const CommandContext& context);
 /// Lists the formats for `sterna formats`.
 int list_formats(const CommandContext& context);
 
-/// Writes the geometry of a failure to `path`. Returns a sentence for the user with the file, or with the reason why it could not be written. Returns an empty
-/// string without geometry.
+/// Writes the geometry of a failure to `path`. Returns a sentence for the user with the file, or with the reason why it could not be written; an empty string
+/// if there is no geometry.
 std::string draw_trouble(const Error& error, const std::filesystem::path& path);
 
 }  // namespace sterna::scripting

@@ -54,7 +54,7 @@ bool can_write(const std::filesystem::path& output, io::FormatUse use, const std
 std::string convert(const InputPath& input, const std::filesystem::path& output, const ConvertSettings& settings, const RunContext& context) {
   const io::Format& from = io::format_of(input.path);
   const bool has_volume = can_write(output, io::FormatUse::write_volume, settings.format);
-  if (!has_volume && !can_write(output, io::FormatUse::write_surface, settings.format))  // lists the formats for the most likely type of input
+  if (!has_volume && !can_write(output, io::FormatUse::write_surface, settings.format))  // the error lists the formats for the most likely type of input
     io::format_to_write(output, from.read_volume && !settings.as_surface ? io::FormatUse::write_volume : io::FormatUse::write_surface, settings.format);
   const auto require_no_numbering = [&](const std::string& why) {
     if (settings.is_numbering_given)

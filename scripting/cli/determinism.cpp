@@ -82,8 +82,8 @@ std::string end_of(const fs::path& file) {
   return text;
 }
 
-/// Returns the command line of a run in its own folder: input files are searched there first (files it wrote itself), then in the folder of the user, then
-/// beside the script.
+/// Returns the command line of a run in its own folder. Input files are searched there first (for files that the run itself wrote), then in the folder of the
+/// user, then beside the script.
 std::vector<std::string> words_of(const DeterminismCommand& command, int threads, const RunContext& run) {
   std::vector<std::string> words = {fs::read_symlink("/proc/self/exe").string(), "run", fs::absolute(command.script).string()};
   for (const auto& [name, value] : command.arguments) words.push_back(name + "=" + value);
@@ -233,7 +233,7 @@ int execute(const DeterminismCommand& command, const CommandContext& context) {
                                  i == 0     ? ""
                                  : is_equal ? ", equal"
                                             : ", different"));
-    std::error_code ignored;  // removed with all of them at the end
+    std::error_code ignored;  // the file is removed with all others at the end
     if (i > 0 && is_equal) fs::remove_all(folder, ignored);
     context.run.progress(static_cast<double>(i + 1) / static_cast<double>(command.threads.size()));
   }

@@ -1,4 +1,4 @@
-// Gate G22: a script produces the same files, byte for byte, on any number of threads.
+// Gate G22: a script must produce the same files, byte for byte, with any number of threads.
 #pragma once
 
 #include <cstdint>
@@ -14,7 +14,7 @@ struct DeterminismCommand {
   std::filesystem::path script;
   OptionOverrides overrides;             ///< --set
   OptionOverrides arguments;             ///< NAME=VALUE
-  std::vector<int> threads = {1, 2, 7};  ///< number of threads of each run; a number given twice compares two equal runs
+  std::vector<int> threads = {1, 2, 7};  ///< number of threads of each run; a number that is given twice compares two equal runs
   bool is_json = false;
 };
 

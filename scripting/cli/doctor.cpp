@@ -113,7 +113,7 @@ Finding browser() {
   return {.what = "browser", .health = Health::poor, .text = "no xdg-open", .remedy = "sterna view then prints its address only; install xdg-utils"};
 }
 
-/// Meshes a box in a sphere: CAD, triangles, layers, tetrahedra, certificate, file.
+/// Meshes a box in a sphere. This tests CAD, triangles, layers, tetrahedra, certificate and file.
 Finding tiny_mesh(const std::string& engine, const CommandContext& context) {
   const std::string what = "engine " + engine;
   const bool is_needed = engine == k_engines.front();

@@ -20,7 +20,7 @@
 namespace sterna::scripting {
 namespace {
 
-/// Returns the options of reading, inspecting and the volume mesh; no first height is needed. The arguments must outlive the table.
+/// Returns the options of reading, of inspecting and of the volume mesh. A first height is not required. The arguments must outlive the table.
 OptionTable inspect_options(surfmesh::StitchOptions& surface, volmesh::InspectRequest& request) {
   OptionTable table = sterna::options_of(request.limits);
   for (Option& option : all_options(surface, request.volume)) table.push_back(std::move(option));

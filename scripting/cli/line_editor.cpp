@@ -1,4 +1,4 @@
-// The only file that uses GNU readline, whose functions take their data from globals, as does its completion: therefore only one editor may exist at a time.
+// The only file that uses GNU readline. Its functions and its completion take their data from globals, so only one editor may exist at a time.
 #include "scripting/cli/line_editor.h"
 
 #include <poll.h>
@@ -33,7 +33,7 @@ Callbacks& callbacks() {
 
 char* copy_of(const std::string& text) { return ::strdup(text.c_str()); }
 
-/// Returns readline's list of candidates: first their common prefix. Null: names of files.
+/// Returns readline's list of candidates, which begins with their common prefix. Null stands for names of files.
 char** candidates_of(const char* word, int start, int) {
   const Completion found = callbacks().complete(callbacks().before + std::string(rl_line_buffer, static_cast<std::size_t>(rl_point)));
   rl_attempted_completion_over = found.is_text ? 0 : 1;
@@ -74,10 +74,10 @@ LineEditor::LineEditor(std::function<Completion(const std::string& text)> comple
   rl_completer_quote_characters = "\"'";
   using_history();
   stifle_history(k_kept_lines);
-  history_comment_char = '#';  // statements of several lines: in the file, time stamps separate statements
+  history_comment_char = '#';  // a statement may have several lines; time stamps separate statements in the file
   history_write_timestamps = 1;
   history_multiline_entries = 1;
-  if (!history_file_.empty()) read_history(history_file_.c_str());  // there is none at the first start
+  if (!history_file_.empty()) read_history(history_file_.c_str());  // at the first start there is no history
 }
 
 LineEditor::~LineEditor() {

@@ -1,4 +1,4 @@
-// Input lines of the user: with GNU readline if stdin is a terminal (editing, history in a file, completion), else unprocessed.
+// Input lines of the user. If stdin is a terminal, they are read by GNU readline (editing, history in a file, completion), else unprocessed.
 #pragma once
 
 #include <filesystem>

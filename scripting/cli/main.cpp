@@ -18,7 +18,7 @@ extern "C" void say_that_it_crashed(int signal) {
   ::raise(signal);
 }
 
-/// Uses a separate stack, because the stack may be exhausted. Does nothing if crashes are handled elsewhere (sanitizers).
+/// Installs the handler on a separate stack, because the normal one may be exhausted. Does nothing if crashes are handled elsewhere (sanitizers).
 void watch_for_crashes() {
   static std::array<char, 65536> stack;
   stack_t other{};

@@ -32,7 +32,7 @@ int print_model_info(const InfoCommand& command, const CommandContext& context) 
   const ModelValue value = read_model(input_of(command.input), options, context.run.part("read", 0.0, k_model_read_end));
   const ModelReport measures = measure_model(value, context.run.part("measure", k_model_read_end, 1.0));
   context.console.end_progress();
-  if (!value.report.empty() && !value.description) context.console.print(command.input + ": " + value.report);  // the findings on descriptions are in the log
+  if (!value.report.empty() && !value.description) context.console.print(command.input + ": " + value.report);  // the log has the report of a description
   context.console.print(describe(value));
   context.console.print(measures_text(measures));
   context.console.print("  closed   " + closedness_text(value.model, k_listed_edges));
@@ -67,7 +67,7 @@ OptionTable model_surface_options(surfmesh::SurfaceMeshOptions& surface, ReadCad
 
 namespace {
 
-/// With --auto the command also accepts triangulations, whose triangles are kept or wrapped: sizes of faces have no effect on them.
+/// With --auto the command also accepts triangulations, whose triangles are kept or wrapped. Rejects sizes of faces for them, which would have no effect.
 void refuse_on_triangulations(const SurfaceCommand& command) {
   const auto input = std::ranges::find_if(command.inputs, [](const std::string& name) { return !is_model_file(name); });
   if (input == command.inputs.end() || !command.is_auto) return;  // without --auto a triangulation is refused
@@ -150,7 +150,7 @@ int unite_models(const UnionCommand& command, const CommandContext& context) {
         read_model(input_of(name), reading, context.run.part("read", k_model_read_end * i / n, k_model_read_end * (i + 1) / n))));
   }
   ModelValue united = unite_solids(models, options, context.run.part("union", k_model_read_end, 0.95));
-  united.description.reset();  // the file contains the union, not its inputs
+  united.description.reset();  // the file contains the union, while the description is that of its inputs
   write_model(united, command.output, {}, context.run.part("write", 0.95, 1.0));
   context.console.end_progress();
   context.run.info("wrote " + command.output.string() + ": " + describe(united));

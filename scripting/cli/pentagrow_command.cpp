@@ -80,7 +80,7 @@ TriMesh tetrahedra_boundary(const HybridMesh& mesh) {
       }
       corners[k] = VertexId(static_cast<std::uint64_t>(vertex_of[node.index()]));
     }
-    boundary.triangles.push_back({corners[0], corners[2], corners[1]});  // boundary faces have normals out of the fluid, surfaces into it
+    boundary.triangles.push_back({corners[0], corners[2], corners[1]});  // boundary faces have normals out of the fluid, surfaces have normals into it
     boundary.triangle_patch.push_back(mesh.boundary_triangles[t].patch);
   }
   return boundary;

@@ -13,9 +13,9 @@ struct PentagrowCommand {
   std::string config;  ///< empty: pentagrow's defaults
 };
 
-/// Writes the same files as pentagrow into the current folder: hybrid.bmsh .cgns .taumesh .su2 as OutputFormat requests (each with its manifest), outermost.vtu
-/// (the envelope), boundaries.smesh (envelope and outer boundary, with the farfield), sumcos.txt (skew of the prisms in 15 classes) and diagnose.txt (tangled
-/// elements: none, or there is no mesh).
+/// Writes the same files as pentagrow into the current folder: the mesh as hybrid.bmsh, .cgns, .taumesh or .su2 as OutputFormat requests (each with its
+/// manifest), outermost.vtu (the envelope), boundaries.smesh (envelope and outer boundary, with the farfield), sumcos.txt (skew of the prisms in 15 classes),
+/// and diagnose.txt (tangled elements, of which there are none if there is a mesh).
 int execute(const PentagrowCommand& command, const CommandContext& context);
 
 }  // namespace sterna::scripting

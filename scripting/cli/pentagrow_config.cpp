@@ -20,14 +20,14 @@ namespace {
 
 constexpr double k_degree = std::numbers::pi / 180.0;
 const double k_icosahedron_edge = 2.0 / std::sqrt(1.0 + std::pow(0.5 * (1.0 + std::sqrt(5.0)), 2.0));  ///< divided by the radius of its sphere
-constexpr double k_sharp_degrees = 120.0;                                                              ///< angle of sharp edges here, and pentagrow's default
+constexpr double k_sharp_degrees = 120.0;                                                              ///< angle of sharp edges in sterna, pentagrow's default
 
 std::string trimmed(std::string_view text) {
   const std::size_t first = text.find_first_not_of(" \t\r"), last = text.find_last_not_of(" \t\r");
   return first == std::string_view::npos ? std::string() : std::string(text.substr(first, last - first + 1));
 }
 
-/// One configuration: entries by key, and the problems of the entries, by line.
+/// The entries of one configuration by key, and the problems of the entries by line.
 class Entries {
  public:
   Entries(const std::string& text, std::string file) : file_(std::move(file)) {
@@ -92,7 +92,7 @@ class Entries {
   }
   std::string text(const std::string& key, const std::string& otherwise) { return has(key) ? entries_.at(key).value : otherwise; }
 
-  /// Notes that a key works differently here. \pre has(key)
+  /// Notes that a key has another effect here than in pentagrow. \pre has(key)
   void note(const std::string& key, const std::string& what) { notes.push_back(place(line_of(key)) + key + ": " + what); }
   void refuse(const std::string& key, const std::string& what) { add_problem(line_of(key), key + " = " + entries_.at(key).value + ": " + what); }
 
@@ -173,7 +173,7 @@ void read_formats(Entries& in, PentagrowCase& out) {
 
 void read_layers(Entries& in, volmesh::EnvelopeOptions& layer) {
   layer.layers = in.whole("NLayers", 21, 1, 1000);
-  layer.growth = "local";  // eq. (1), as meant by the file
+  layer.growth = "local";  // the file means eq. (1)
   layer.first_height = in.number("InitialHeight", 1e-5, 1e-12);
   layer.max_thickness = in.number("MaxLayerThickness", 1.0, 1e-12);
   layer.max_relative_height = in.number("MaxRelativeHeight", 5.0, 0.01, 1e6);

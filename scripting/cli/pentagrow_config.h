@@ -1,4 +1,4 @@
-// Configurations of pentagrow: every key is mapped to options of sterna, so that a pipeline that writes such files only has to change one path.
+// Configurations of pentagrow. Every key is mapped to options of sterna, so that a pipeline that writes such files only has to change one path.
 #pragma once
 
 #include <filesystem>
@@ -16,16 +16,16 @@ struct PentagrowCase {
   std::vector<std::filesystem::path> outputs;            ///< hybrid.bmsh ...
   bool is_half = false;                                  ///< Symmetry
   double cut = 0.0;                                      ///< m, YPlaneCut
-  double nearfield_edge = 0.0;                           ///< m; 0: none, below 0: from the wall's edges
+  double nearfield_edge = 0.0;                           ///< m; 0: no nearfield; below 0: the edge follows from the wall's edges
   double nearfield_size = 3.5;                           ///< as a multiple of half the wall's box, if there are no semi-axes
   std::vector<double> nearfield_center, nearfield_axes;  ///< x y z, or empty
   std::vector<std::string> notes;                        ///< differences from pentagrow, each a sentence with key and line
 };
 
-/// Reads "Key = value" lines (# comments, vectors blank-separated, booleans y yes true n no false). Angles in degrees, lengths in those of the surface. Missing
-/// keys keep pentagrow's defaults.
-/// \throws Error(file_malformed, bad_argument) with the file's line: misspelt keys with a suggestion, wrong values, unsupported settings with their
-/// replacement; all problems at once
+/// Reads "Key = value" lines: # begins a comment, vectors are separated by blanks, booleans are y, yes, true, n, no or false. Angles are in degrees, lengths in
+/// the unit of the surface. Missing keys have pentagrow's defaults.
+/// \throws Error(bad_argument) or Error(file_malformed) with the file's line for misspelt keys (with a suggestion), wrong values, and unsupported settings
+/// (with their replacement); all problems are reported at once
 PentagrowCase read_pentagrow_config(const std::string& text, const std::string& file_name);
 
 /// Returns the region around the wall defined by Nearfield..., as a box of small tetrahedra; nothing if undefined.

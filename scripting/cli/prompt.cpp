@@ -24,7 +24,7 @@ RunContext context_of(const PromptSettings& settings, const InterruptGuard& inte
   return RunContext(run);
 }
 
-/// Reads lines until Lua has a whole statement; nothing at the end of the input. An expression is prefixed with "return".
+/// Reads lines until Lua has a whole statement; returns nothing at the end of the input. An expression is prefixed with "return".
 std::optional<std::string> read_statement(ScriptState& state, LineEditor& editor, InterruptGuard& interrupt, bool& is_last) {
   std::string statement;
   while (true) {

@@ -131,7 +131,7 @@ std::string fish_completion(const CLI::App& app) {
   return text;
 }
 
-/// Returns the text of a page: hyphens are hyphens, and no line begins with a roff request.
+/// Returns the text of a page in roff: hyphens stay hyphens, and no line begins with a roff request.
 std::string roff(const std::string& text) {
   const std::string escaped = replaced(replaced(text, "\\", "\\e"), "-", "\\-");
   std::string lines = replaced(replaced(escaped, "\n.", "\n\\&."), "\n'", "\n\\&'");
@@ -205,9 +205,9 @@ void add_shell_commands(CLI::App& app, const std::function<void(std::function<in
       const auto name = about->count() > 0 ? about->as<std::string>() : std::string();
       const auto commands = app.get_subcommands([&](const CLI::App* known) { return known->check_name(name); });
       const CLI::App* command = name.empty() ? &app : commands.empty() ? nullptr : commands.front();
-      // app.help() would be the help of the running command.
+      // app.help() would return the help of the running command.
       std::string text = command == &app ? app.get_formatter()->make_help(&app, app.get_name(), CLI::AppFormatMode::Normal) : command ? command->help() : "";
-      // A name may have two meanings: a command and a verb of scripts; an option of a command, and one of scripts.
+      // A name may have two meanings: it may be both a command and a verb of scripts, or an option of both.
       if (name.empty() || (command && !find_verb(name))) return context.console.print(text), k_exit_success;
       if (!command) text = help_on_option(app, name);
       const std::string in_script = script_name(name), of_scripts = text.empty() ? help_on_name(in_script, "help " + name) : help_if_known(in_script);

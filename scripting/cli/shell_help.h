@@ -1,4 +1,4 @@
-// Shell completions and the man page of the commands and their options: from the same tables as --help.
+// Shell completions and the man page of the commands and their options. They are generated from the same tables as --help.
 #pragma once
 
 #include <functional>

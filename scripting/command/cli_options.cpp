@@ -15,7 +15,7 @@ std::string kebab(std::string_view name) {
   return text;
 }
 
-/// Returns "NUMBER[deg]": with the unit of a number that is given without a unit.
+/// Returns "NUMBER[deg]": the unit is that of a number given without one.
 std::string type_name(const Option& option) {
   if (option.kind == OptionKind::boolean) return "[true|false]";
   if (option.kind == OptionKind::text) return "TEXT";
@@ -50,7 +50,7 @@ void add_schema_options(CLI::App& command, const OptionTable& table, OptionOverr
     const std::string name(option.name);
     std::string help = std::string(option.help) + "; " + option.default_text();
     if (const std::string range = option.range_text(); !range.empty()) help += "; " + range;
-    // If given twice, both values are kept: set_options refuses them if they differ.
+    // If the option is given twice, both values are kept, and set_options refuses them if they differ.
     CLI::Option* added = command.add_option_function<std::vector<std::string>>(
         "--" + kebab(name),
         [&overrides, name](const std::vector<std::string>& texts) {

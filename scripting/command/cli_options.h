@@ -20,8 +20,8 @@ void add_set_option(CLI::App& command, OptionOverrides& overrides);
 void add_schema_options(CLI::App& command, const OptionTable& table, OptionOverrides& overrides, const std::string& note = {});
 /// Returns the names of the options given to this command on the command line: "--json".
 std::vector<std::string> given_options(const CLI::App& command);
-/// Adds --patch "wing*:max_edge=0.1,curvature_angle=8": of two patterns that match, the one with more letters applies.
-/// \param name of the option, if it is another one of the same form
+/// Adds --patch "wing*:max_edge=0.1,curvature_angle=8". If two patterns match, the one with more letters applies.
+/// \param name name of the option, if it is another option of the same form
 void add_patch_option(CLI::App& command, std::vector<std::pair<std::string, OptionOverrides>>& patches, const std::string& help,
                       const std::string& name = "--patch");
 

@@ -13,7 +13,7 @@
 namespace sterna::scripting {
 namespace {
 
-/// Returns the options to which no name on the command line refers, not even a misspelt name or one with a refused value. Thus each mistake is reported once.
+/// Returns the options to which no name on the command line refers, not even a misspelt one or one with a refused value, so that each mistake is reported once.
 OptionTable not_meant(const OptionTable& table, const OptionOverrides& given) {
   OptionTable result;
   for (const Option& option : table) {
@@ -40,7 +40,7 @@ std::string why_elsewhere(const OptionTable& table, const std::string& name, con
 void set_options(const OptionTable& table, const OptionOverrides& given, const CommandContext& context, const std::vector<OptionsElsewhere>& elsewhere) {
   std::string problems;
   std::size_t n_problems = 0;
-  std::map<std::string, std::pair<std::string, OptionValue>> before;  // previous settings of options, by full name
+  std::map<std::string, std::pair<std::string, OptionValue>> before;  // settings that the options had before, by full name
   for (const auto& [name, text] : given) {
     try {
       if (const std::string why = why_elsewhere(table, name, elsewhere); !why.empty())

@@ -27,7 +27,7 @@ struct OptionsShown {
   std::string json;
 };
 
-/// Options that the command has for other inputs, or with another flag; if one of them is given, the reason why it has no effect is reported.
+/// Options that the command has only for other inputs, or with another flag. If one of them is given, the reason why it has no effect is reported.
 struct OptionsElsewhere {
   OptionTable table;
   std::string why;  ///< reason: "is for models (STEP ...), and wall.stl is a triangulation"

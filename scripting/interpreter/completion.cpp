@@ -1,5 +1,5 @@
-// Steps: context at the end of the text (open tables and their verbs; inside a string or not); the word there; the possible candidates in this context; those
-// that begin with the word.
+// Steps: find the context at the end of the text (open tables and their verbs; inside a string or not) and the word there; collect the candidates that are
+// possible in this context; keep those that begin with the word.
 #include "scripting/interpreter/completion.h"
 
 #include <lua.hpp>
@@ -71,7 +71,7 @@ Place place_at_end(std::string_view text) {
   return place;
 }
 
-// ---- Values of the script: only raw access, so no code of the script runs ----------------------------------------------------------------------------------
+// ---- Values of the script, by raw access only, so that no code of the script runs -------------------------------------------------------------------------
 
 /// Pushes the value of a path of names, "design.wing"; nil if there is none. Fields of objects are not followed.
 void push_path(lua_State* state, std::string_view path) {
@@ -175,7 +175,7 @@ const ScriptVerb* verb_called(std::string_view name) {
   return colon == std::string_view::npos ? nullptr : find_verb(name.substr(colon + 1));
 }
 
-/// Returns the options of the innermost open table: all options of its verb, or in `farfield = {` those with this prefix, without the prefix.
+/// Returns the options of the innermost open table. These are all options of its verb; in `farfield = {` they are those with this prefix, without the prefix.
 std::vector<std::string> options_at(const Place& place) {
   std::string stage;
   for (auto it = place.open.rbegin(); it != place.open.rend(); ++it) {

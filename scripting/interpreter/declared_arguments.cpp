@@ -45,7 +45,7 @@ bool is_same_value(const ScriptValue& a, const ScriptValue& b) {
   if (a.index() != b.index()) return false;
   if (const auto* text = std::get_if<std::string>(&a)) return *text == std::get<std::string>(b);
   if (const auto* flag = std::get_if<bool>(&a)) return *flag == std::get<bool>(b);
-  return true;  // neither has a default
+  return true;  // neither of the two has a default
 }
 
 bool is_same_declaration(const ScriptParameter& a, const ScriptParameter& b) {

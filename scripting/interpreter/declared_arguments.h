@@ -1,4 +1,4 @@
-// The combined arguments of a script and its modules: each may call args{}.
+// The arguments of a script and its modules together; each of them may call args{}.
 #pragma once
 
 #include <string>
@@ -13,8 +13,8 @@ namespace sterna::scripting {
 /// way. \return problems: names that were declared before with another default or other limits
 std::vector<std::string> add_declared(ScriptSession& session, const std::string& where, std::vector<ScriptParameter> parameters);
 
-/// Returns a problem for each argument of the command line that no args{} has declared. Returns none before the first args{}. Returns none, unless the script
-/// is over, while a module that is not loaded yet or an args{} that has not run yet may still declare the argument.
+/// Returns a problem for each argument of the command line that no args{} has declared. Returns none before the first args{}. While the script runs, also
+/// returns none if a module that is not loaded yet, or an args{} that has not run yet, may still declare the argument.
 std::vector<std::string> unknown_arguments(const ScriptSession& session, bool is_over);
 
 /// Checks the arguments. To be called before work that takes time and when the script is over.

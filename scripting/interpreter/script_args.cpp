@@ -21,7 +21,7 @@ namespace {
 constexpr std::string_view k_script_args_usage = "local p = args{ alpha = 0, half = false, name = \"polar\" }";
 constexpr std::string_view k_number_usage =
     "args{ span = number{ 10, min = 6, max = 20, unit = m }, alpha = number{ 4, min = -5, max = 15, step = 0.5, unit = deg } }";
-/// Field of the table returned by number{}: distinguishes it from tables of the script.
+/// Field of the table returned by number{}, by which that table is distinguished from tables of the script.
 constexpr const char* k_number_mark = "argument";
 
 bool is_name(std::string_view text) {
@@ -33,9 +33,9 @@ bool is_name(std::string_view text) {
 std::optional<double> number_of_text(const std::string& text) {
   for (const Unit unit : {Unit::metre, Unit::radian, k_kelvin}) {
     try {
-      return parse_number_with_unit(text, unit, BareAngle::radians);  // a plain number is parsed as a length: unchanged
+      return parse_number_with_unit(text, unit, BareAngle::radians);  // a plain number is parsed as a length, which leaves it unchanged
     } catch (const Error&) {
-      continue;  // a unit of another dimension, or no number: the caller decides on other interpretations
+      continue;  // this is no number, or its unit has another dimension; the caller tries other interpretations
     }
   }
   return std::nullopt;
@@ -97,7 +97,7 @@ std::optional<ScriptParameter> number_parameter(const std::string& name, const S
   return parameter;
 }
 
-/// Sets the parameter from a string to a value within the limits: a plain number is in the parameter's unit. Notes a problem otherwise.
+/// Sets the parameter from a string to a value within the limits. A plain number is in the parameter's unit. Otherwise notes a problem.
 void set_number_parameter(ScriptParameter& parameter, const std::string& text, TableReader& reader) {
   const ScriptValue value = value_like(parameter.name, text, parameter.initial, reader);
   const auto number = number_of(value);
@@ -105,7 +105,7 @@ void set_number_parameter(ScriptParameter& parameter, const std::string& text, T
   const bool is_bare = text.find_first_not_of("+-0123456789.eE") == std::string::npos;
   const double in_unit = is_bare ? *number : *number / parameter.unit_value;
   const std::string unit = parameter.unit.empty() ? "" : " " + parameter.unit;
-  const double slack = 1e-9 * std::max(std::abs(parameter.min.value_or(0.0)), std::abs(parameter.max.value_or(0.0)));  // 20deg equals 20 only up to rounding
+  const double slack = 1e-9 * std::max(std::abs(parameter.min.value_or(0.0)), std::abs(parameter.max.value_or(0.0)));  // 20deg is 20 up to rounding
   if (parameter.min && in_unit < *parameter.min - slack)
     reader.add_problem("argument " + parameter.name + "=" + text + ": " + number_text(in_unit, 6) + unit + " is below the minimum, " +
                        number_text(*parameter.min, 6) + unit);
@@ -115,7 +115,7 @@ void set_number_parameter(ScriptParameter& parameter, const std::string& text, T
   parameter.value = in_unit * parameter.unit_value;
 }
 
-/// Makes number{ 10, min = 6, max = 20, unit = m }: a default with limits, for args{}.
+/// Makes number{ 10, min = 6, max = 20, unit = m }, which is a default with limits for args{}.
 ScriptValue declare_number(const ScriptCall& call) {
   const ScriptTable table = table_argument(call, 0, k_number_usage);
   TableReader reader(table, call.attempted());
@@ -143,10 +143,10 @@ ScriptValue declare_number(const ScriptCall& call) {
   return TableHandle(std::move(result));
 }
 
-/// Declares args{ alpha = 0, "name" }: defaults by name; strings without a key are required arguments.
+/// Declares args{ alpha = 0, "name" }: named entries are defaults; strings without a key are required arguments.
 ScriptValue declare(const ScriptCall& of_table) {
   ScriptCall call = of_table;
-  call.arguments.erase(call.arguments.begin());  // the called table
+  call.arguments.erase(call.arguments.begin());  // removes the called table
   const ScriptTable table = table_argument(call, 0, k_script_args_usage);
   TableReader reader(table, call.attempted());
   ScriptTable result;

@@ -9,7 +9,7 @@ namespace sterna::scripting {
 
 /// The verb args.
 std::span<const ScriptVerb> argument_verbs();
-/// The verb itself, which is also a table: args.alpha.
+/// The verb args itself, which is also a table: args.alpha.
 const ScriptVerb& arguments_verb();
 extern const ScriptVerb k_argument_field;
 

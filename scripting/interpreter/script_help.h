@@ -1,4 +1,4 @@
-// Contents of help() and of the manual on verbs and objects: all of it is generated from the tables of verbs and objects, so that it is always up to date.
+// Contents of help(), and of the manual on verbs and objects. All of it is generated from the tables of verbs and objects, so that it is always up to date.
 #pragma once
 
 #include <span>
@@ -42,7 +42,7 @@ std::string help_text();
 
 /// Returns the help on a verb, an object or an option by its name; empty if there is none.
 std::string help_if_known(const std::string& name);
-/// As above.
+/// The same, but an unknown name is an error.
 /// \throws Error(bad_argument) with the nearest name if there is none
 std::string help_on_name(const std::string& name, const std::string& attempted);
 

@@ -1,4 +1,4 @@
-// The kinds of objects in scripts: one table of their names, methods and fields, from which metatables, help(), the manual and completion are generated.
+// The kinds of objects in scripts. One table has their names, methods and fields; metatables, help(), the manual and completion are generated from it.
 #pragma once
 
 #include <span>

@@ -27,7 +27,8 @@
 namespace sterna::scripting {
 namespace {
 
-/// Number of calls in a traceback, and search depth: Lua counts from the innermost call each time, and an endless recursion is 200 000 deep.
+/// Number of calls in a traceback, and search depth. They are limited because Lua counts from the innermost call each time, and an endless recursion is 200 000
+/// calls deep.
 constexpr int k_max_traced = 12;
 constexpr int k_max_looked_at = 100;
 
@@ -54,7 +55,7 @@ void* allocate(void* data, void* block, std::size_t old_size, std::size_t new_si
 
 // ---- Verbs ---------------------------------------------------------------------------------------------------------------------------------
 
-/// Reports "envelope.smoth": a function that the table of that name does not have.
+/// Reports a function that the table of that name does not have, such as "envelope.smoth".
 int unknown_member(lua_State* state) {
   if (lua_type(state, 2) != LUA_TSTRING) return 0;
   return luaL_error(state, "unknown name ('%s.%s')", lua_tostring(state, lua_upvalueindex(1)), lua_tostring(state, 2));
@@ -118,7 +119,7 @@ struct Source {
   bool is_printed = false;
 };
 
-/// Runs protected; argument 1 is the Source.
+/// Runs a source in protected mode. Argument 1 is the Source.
 int run_source(lua_State* state) {
   const auto& source = *static_cast<const Source*>(lua_touserdata(state, 1));
   if (luaL_loadbufferx(state, source.text->data(), source.text->size(), source.chunk_name->c_str(), "t") != LUA_OK) return lua_error(state);
@@ -197,7 +198,9 @@ namespace {
 
 ScriptValue run_with_cache(const ScriptVerb& verb, const ScriptCall& call) {
   if (verb.is_heavy) refuse_unknown_arguments(call.session, false);
-  if ((verb.name == "aircraft" || verb.name == "union") && is_sketch(call)) return verb.run(call);  // no union: not cached, nor an origin of cached results
+  if ((verb.name == "aircraft" || verb.name == "union") && is_sketch(call))
+    return verb.run(call);  // the result is no union: it is not cached, and cached
+                            // results must not be made from it
   return with_provenance(cached_model(verb, call), call);
 }
 
@@ -219,7 +222,7 @@ struct ScriptState::Parts {
 
 namespace {
 
-/// Notes the origin of an error; the error itself is unchanged. Upvalue 1: the string to fill.
+/// Notes the call stack of an error; the error itself is unchanged. Upvalue 1 is the string for the traceback.
 int note_traceback(lua_State* state) {
   if (session_of(state).watch) note_all_locals(state);
   take_traceback(state, *static_cast<std::string*>(lua_touserdata(state, lua_upvalueindex(1))));
@@ -273,7 +276,7 @@ void run_protected(lua_State* state, Source source, std::string& traceback, std:
   lua_pushcfunction(state, run_source);
   lua_pushlightuserdata(state, &source);
   const int status = lua_pcall(state, 1, 0, 1);
-  if (status == LUA_OK || session_of(state).series.is_case_over) return;  // in a worker whose case is over, the script ends by a stop
+  if (status == LUA_OK || session_of(state).series.is_case_over) return;  // in a worker whose case is over, the script ends by a stop, which is no error
   if (status == LUA_ERRMEM)
     throw Error({.code = ErrorCode::script_failed,
                  .attempted = session_of(state).script.string(),

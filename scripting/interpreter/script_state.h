@@ -1,4 +1,4 @@
-// A Lua state with the sandbox, the verbs and a session; runs chunks of Lua, one after the other.
+// A Lua state with the sandbox, the verbs and a session. It runs chunks of Lua, one after the other.
 #pragma once
 
 #include <memory>
@@ -20,7 +20,7 @@ class ScriptState {
   /// Runs a chunk of Lua, called `name` in messages. If an error comes from functions of the script, its text contains the traceback.
   /// \throws Error as run_script
   void run(const std::string& text, const std::string& name);
-  /// As above; prints the results of the chunk, as an interactive prompt does.
+  /// Runs a chunk and prints its results, as an interactive prompt does.
   void run_and_print(const std::string& text, const std::string& name);
   /// Returns true if the text is the beginning of a longer statement, as far as Lua can detect this.
   bool is_incomplete(const std::string& text);

@@ -82,7 +82,7 @@ OptionTable unit_option(surfmesh::StitchOptions& options) {
   return schema;
 }
 
-/// Returns true if there are models, components or files of either: then union uses exact geometry.
+/// Returns true if the table contains models, components or files of either; union then uses exact geometry.
 bool has_model(const ScriptTable& table) {
   return std::any_of(table.items.begin(), table.items.end(), [](const ScriptValue& item) {
     const auto* name = std::get_if<std::string>(&item);
@@ -242,7 +242,7 @@ ScriptValue check_mesh(const ScriptCall& call) {
   }
   reader.finish();
   if (wall) require_model_wall(*wall, call.attempted());
-  // A mesh made in this run was checked with the default options at that time, and cannot have changed.
+  // A mesh that was made in this run has been checked with the default options, and cannot have changed since.
   const bool is_known = mesh->check && n_options == 0 && !has_limits;
   const RunContext context = call.session.context.part("check", 0.0, 1.0);
   CheckReport report = is_known ? *mesh->check : check(mesh->mesh, options.to_options(limits), context.part("mesh", 0.0, wall ? 0.5 : 1.0));
@@ -251,7 +251,7 @@ ScriptValue check_mesh(const ScriptCall& call) {
   if (is_detailed) {
     call.session.print(check_text(report, mesh->mesh));
   } else {
-    call.session.print(check_summary_text(report, !is_known || wall));  // the summary of volume_mesh has reported the worst known values
+    call.session.print(check_summary_text(report, !is_known || wall));  // the summary of volume_mesh has already reported the worst values of a new mesh
     call.session.context.debug(to_text(report));
   }
   if (report.quality_measured && report.intersections_checked) mesh->check = report;

@@ -26,7 +26,7 @@ struct ScriptUnit {
 /// The global numbers m, mm, um, cm, inch, ft, deg.
 std::span<const ScriptUnit> script_units();
 
-/// Returns a suggestion for an unknown global name: the verb or unit with the nearest name, or the replacement for one of Lua's omitted libraries. Empty: no
+/// Returns a suggestion for an unknown global name: the verb or unit with the nearest name, or the replacement for one of Lua's omitted libraries. Empty if no
 /// name is near.
 std::string hint_for_global(std::string_view name);
 

@@ -74,7 +74,7 @@ const ScriptValue& kept(ScriptCheck& check, std::string_view kind) {
   return check.stand_ins.emplace(std::string(kind), std::move(made)).first->second;
 }
 
-/// Returns true if the first argument is a surface: a verb that accepts surfaces and models returns the type of its argument.
+/// Returns true if the first argument is a surface. A verb that accepts surfaces and models returns the type of its argument.
 bool is_about_surfaces(const ScriptCall& call) {
   if (call.arguments.empty()) return false;
   const ScriptValue& argument = call.arguments.front();
@@ -93,7 +93,7 @@ ScriptValue make_stand_in(const ScriptCall& call, std::string_view gives) {
   if (gives == k_either) return kept(check, is_about_surfaces(call) ? "surface" : "model");
   if (object_kind(gives)) return kept(check, gives);
   if (gives == "inspection") return inspection_stand_in();
-  if (gives != "stages") return OpaqueValue{k_unknown_value};  // a source, or a table whose names follow from missing results
+  if (gives != "stages") return OpaqueValue{k_unknown_value};  // the verb returns a source, or a table whose names follow from missing results
   auto table = std::make_shared<ScriptTable>();
   for (const char* kind : {"surface", "envelope", "tetrahedra", "mesh"}) table->fields[kind] = kept(check, kind);
   return table;

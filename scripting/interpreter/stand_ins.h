@@ -7,7 +7,7 @@
 
 namespace sterna::scripting {
 
-/// As stand_in() of script_check.h: created on first use, and kept in the session's check.
+/// Makes the result of stand_in() (script_check.h). It is created on first use, and kept in the session's check.
 /// \pre the run only checks
 ScriptValue make_stand_in(const ScriptCall& call, std::string_view gives);
 

@@ -1,4 +1,4 @@
-// Conversion of exceptions of the standard library to errors for the user: lack of memory or threads, else an internal error.
+// Converts exceptions of the standard library to errors for the user: lack of memory or threads, else an internal error.
 #pragma once
 
 #include <exception>
@@ -11,8 +11,8 @@
 
 namespace sterna::scripting {
 
-/// Returns, for std::bad_alloc and for a thread that the system cannot start, code overflow and a remedy; for all others code internal, to be reported to the
-/// developers.
+/// Returns the error for an exception. For std::bad_alloc and for a thread that the system cannot start, it has the code overflow and a remedy; all others have
+/// the code internal, to be reported to the developers.
 inline ErrorInfo foreign_error(const std::exception& error, std::string attempted) {
   if (dynamic_cast<const std::bad_alloc*>(&error) != nullptr)
     return {.code = ErrorCode::overflow,

@@ -1,4 +1,4 @@
-// Lua source as text: the parts outside of comments and strings.
+// Functions for Lua source as text, which find the parts outside of comments and strings.
 #pragma once
 
 #include <cstddef>

@@ -1,4 +1,4 @@
-// Flow conditions and the lengths derived from them: they can be printed, and a length can be used as a number of metres where one is expected.
+// Flow conditions and the lengths derived from them. They can be printed, and a length can be used as a number of metres where one is expected.
 #pragma once
 
 #include <string>
@@ -13,10 +13,10 @@ namespace sterna::scripting {
 
 struct QuantityValue {
   std::string_view verb;        ///< verb that made it: "y_plus", "boundary_layer", "flow"
-  double metres = k_automatic;  ///< automatic: conditions, no length
+  double metres = k_automatic;  ///< the derived length; automatic: the quantity consists of flow conditions only
   std::string text;             ///< one line for print and log
   volmesh::FlowState flow;
-  std::vector<std::pair<std::string, double>> fields = {};  ///< in addition to those of the flow: height, friction_velocity ...
+  std::vector<std::pair<std::string, double>> fields = {};  ///< fields in addition to those of the flow: height, friction_velocity ...
 
   bool is_length() const { return !is_automatic(metres); }
   std::string_view type_text() const { return is_length() ? "a length" : "flow conditions"; }

@@ -30,8 +30,7 @@ const char k_box_tag = 0;
 const char k_verb_tag = 0;
 constexpr const char* k_shape_type = "sterna.shape";
 
-// ---- Reading: only functions of Lua that never raise, and protected calls
-// ------------------------------------------------------------------------------------
+// ---- Reading: uses only functions of Lua that never raise, and protected calls ----------------------------------------------------------------
 
 ObjectBox* box_at(lua_State* state, int index) {
   if (lua_type(state, index) != LUA_TUSERDATA || !lua_getmetatable(state, index)) return nullptr;
@@ -128,7 +127,7 @@ ErrorHandle placed(const Error& error, const ScriptCall& call) {
   return make_error(std::move(info));
 }
 
-/// For a script that is only checked: notes the problem and continues with a placeholder for the result, unless the script catches the error itself.
+/// For a script that is only checked: notes the problem, and continues with a placeholder for the result, unless the script catches the error itself.
 bool goes_on(lua_State* state, const ScriptVerb& verb, const ScriptCall& call, ErrorHandle error) {
   if (!call.session.check || error->code() == ErrorCode::cancelled || is_protected(state)) return false;
   call.session.check->problems.push_back(std::move(error));
@@ -136,7 +135,7 @@ bool goes_on(lua_State* state, const ScriptVerb& verb, const ScriptCall& call, E
   return true;
 }
 
-/// Returns true if an argument is an unknown value of a script that is only checked: then there is nothing to check.
+/// Returns true if an argument is an unknown value of a script that is only checked. The call then cannot be checked.
 bool is_about_unknown(const ScriptCall& call) {
   const auto has_unknown = [](const std::vector<ScriptValue>& values) { return std::ranges::any_of(values, is_unknown); };
   if (has_unknown(call.arguments)) return true;
@@ -169,7 +168,7 @@ bool run_verb(lua_State* state, ScriptSession& session, const ScriptVerb& verb) 
   return false;
 }
 
-// ---- Pushing: may raise, so no frame here owns a C++ object ------------------------------------------------------------------------------
+// ---- Pushing: these functions may raise, so no frame here owns a C++ object ---------------------------------------------------------------------
 
 const ObjectKind* kind_named(lua_State* state, std::string_view name) {
   for (const ObjectKind& kind : session_of(state).hooks->kinds())
@@ -210,7 +209,7 @@ void push_value(lua_State* state, const ScriptValue& value) {
   else lua_pushnil(state);
 }
 
-/// In a worker whose case is over no further verb runs, even if the script catches the error that ends it.
+/// Ends any further verb in a worker whose case is over, even if the script catches the error that ends it.
 bool take_end_of_case(ScriptSession& session) noexcept {
   if (!session.series.is_case_over) return false;
   session.value = session.cancelled;
@@ -224,7 +223,7 @@ int call_verb(lua_State* state) {
   if (verb.is_heavy) lua_gc(state, LUA_GCCOLLECT);
   if (!run_verb(state, session, verb)) raise_failure(state);
   push_value(state, session.value);
-  session.value = std::monostate{};  // only the script determines the lifetime of a mesh
+  session.value = std::monostate{};  // release the value here, so that only the script determines the lifetime of a mesh
   return 1;
 }
 
@@ -265,9 +264,9 @@ void register_type(lua_State* state, const ObjectKind& kind) {
   lua_pop(state, 1);
 }
 
-// ---- Arithmetic with lengths that store their origin: 1.3 * boundary_layer{...} is a plain number ------------------------------------------------
+// ---- Arithmetic with lengths that store their origin: the result, as of 1.3 * boundary_layer{...}, is a plain number --------------------------------
 
-/// Pushes the operand as a number; others unchanged, so that Lua reports an error for them. May raise.
+/// Pushes the operand as a number. Other operands are pushed unchanged, so that Lua reports an error for them. May raise.
 void push_operand(lua_State* state, int index) {
   const ObjectBox* box = box_at(state, index);
   const QuantityHandle* quantity = box ? std::get_if<QuantityHandle>(&box->value) : nullptr;

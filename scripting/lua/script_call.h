@@ -32,13 +32,13 @@ struct ScriptSession {
   RunContext context;
   std::filesystem::path script;                   ///< its folder is the second search location of input files
   OptionOverrides overrides;                      ///< options of the command line; they win over the script
-  std::function<void(std::string_view)> print;    ///< results
+  std::function<void(std::string_view)> print;    ///< receives results
   std::function<void(const MeshValue&)> on_mesh;  ///< called for every volume mesh made; may be empty
-  const StageCache* cache = nullptr;              ///< results of stages by their inputs' content; null: everything is recomputed
-  std::vector<std::string> reused = {};           ///< a line for each stage taken from the cache: "surface_mesh of body"; or started from a reference
+  const StageCache* cache = nullptr;              ///< results of stages by the content of their inputs; null if everything is recomputed
+  std::vector<std::string> reused = {};           ///< a line for each stage that was taken from the cache or started from a reference: "surface_mesh of body"
   ErrorHandle cancelled;                          ///< allocated in advance, because the hook that raises it must not allocate
   OptionOverrides arguments = {};                 ///< NAME=VALUE of the command line, for args
-  ScriptCheck* check = nullptr;                   ///< not null: nothing is meshed or written, see script_check.h
+  ScriptCheck* check = nullptr;                   ///< not null: nothing is meshed or written (script_check.h)
 
   std::filesystem::path input_folder = {};   ///< see ScriptSettings
   std::filesystem::path output_folder = {};  ///< relative output names go there; empty = current folder
@@ -64,11 +64,11 @@ struct Attempt : std::string {
 /// One call of a verb.
 struct ScriptCall {
   ScriptSession& session;
-  std::string where;                   ///< "case.lua:5: ", or empty
+  std::string where;                   ///< location of the call, "case.lua:5: ", or empty
   std::string_view verb;               ///< "volume_mesh"
   std::vector<ScriptValue> arguments;  ///< for a method: the object first
   bool is_heavy = false;               ///< ScriptVerb::is_heavy, except if the run only checks but makes this geometry (ScriptCheck::makes_geometry)
-  bool is_geometry = false;            ///< the reverse: heavy, but executed
+  bool is_geometry = false;            ///< the verb is heavy but executed, because the run checks and makes this geometry
 
   Attempt attempted() const { return {where + std::string(verb), session.check, session.check != nullptr && is_heavy}; }
 };
@@ -79,10 +79,10 @@ struct ScriptVerb {
   std::string_view summary;  ///< one sentence
   ScriptValue (*run)(const ScriptCall&);
   std::string (*options_help)() = nullptr;
-  bool is_heavy =
-      false;  ///< long-running or writing: omitted when a script is only checked; unused meshes are collected first, as Lua does not know their size
+  bool is_heavy = false;  ///< takes long or writes files: left out when a script is only checked. Before the call, meshes that are no longer used are freed,
+                          ///< because Lua does not know how large they are
   std::string_view gives = {};  ///< kind of object (script_objects.h), "self", "model or surface", "stages", "table"; empty: other
-  bool is_kept = false;         ///< a model returned by it is taken from the cache if present (values/cached_model.h)
+  bool is_kept = false;         ///< the model that it returns is taken from the cache if present (values/cached_model.h)
 };
 
 /// Pushes a verb as a Lua function. May raise.
@@ -94,7 +94,8 @@ void register_objects(lua_State* state);
 /// Returns the session of a state that was made by run_script.
 ScriptSession& session_of(lua_State* state) noexcept;
 void set_session(lua_State* state, ScriptSession& session) noexcept;
-/// For functions of scripts that are called from C++: the first pushes a value and may raise; the second copies a value out and never raises.
+/// Pass values to and from functions of scripts that are called from C++. The first function pushes a value and may raise; the second copies a value out and
+/// never raises.
 /// \throws Error(bad_argument) for tables nested too deep
 void push_script_value(lua_State* state, const ScriptValue& value);
 ScriptValue script_value_at(lua_State* state, int index);

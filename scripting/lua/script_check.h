@@ -1,5 +1,5 @@
-// Checking of a script without meshing: every verb reads its table; heavy verbs end there and return a placeholder for their result. A mistake is noted, and
-// the script continues with a placeholder, so that one check finds many mistakes.
+// Checks a script without meshing. Every verb reads its table; heavy verbs end there and return a placeholder for their result. A mistake is noted, and the
+// script continues with a placeholder, so that one check finds many mistakes.
 #pragma once
 
 #include <filesystem>
@@ -25,9 +25,10 @@ struct OptionSet {
 struct ScriptCheck {
   std::vector<ErrorHandle> problems;  ///< in the order of the script
   std::vector<OptionSet> options;
-  std::set<std::filesystem::path> outputs;                    ///< files that the script would have written: later verbs may read them
+  std::set<std::filesystem::path> outputs;                    ///< files that the script would have written; later verbs may read them
   std::map<std::string, ScriptValue, std::less<>> stand_ins;  ///< placeholders by kind of object; created on first use
-  bool makes_geometry = false;                                ///< models and surfaces of files are made, as in a run; meshes are not, nothing is written
+  bool makes_geometry = false;                                ///< models, and surfaces of files, are made as in a run; meshes are not made, and nothing is
+                                                              ///< written
 };
 
 /// Returns true if a heavy verb is executed although the run only checks: the run makes geometry, and no argument is a placeholder.
@@ -36,7 +37,8 @@ bool is_geometry_made(const ScriptCall& call, const ScriptVerb& verb);
 /// Thrown when a verb has completed its checks and the run only checks. Not an error.
 struct ChecksDone {};
 
-/// Ends a verb that has nothing more to check if the run only checks: before work, before writing. Verbs with is_heavy end in TableReader::finish().
+/// Ends a verb that has nothing more to check if the run only checks. To be called before work and before writing. Verbs with is_heavy end in
+/// TableReader::finish().
 void finish_checks(const ScriptCall& call);
 
 /// Returns a placeholder for the result of the verb, of the kind ScriptVerb::gives; nil if that is empty.

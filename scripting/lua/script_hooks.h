@@ -1,4 +1,4 @@
-// Functions that the bridge to Lua needs from the folders above it: stored in a session, and set by the interpreter.
+// Functions that the bridge to Lua needs from the folders above it. The interpreter sets them, and they are stored in a session.
 #pragma once
 
 #include <span>
@@ -19,7 +19,7 @@ struct ObjectKind {
   std::string_view name;     ///< "surface", the prefix of the names of its methods
   const char* type;          ///< key of its metatable
   std::string_view summary;  ///< one sentence
-  const ScriptVerb* field;   ///< object.name for names that are no method
+  const ScriptVerb* field;   ///< verb that reads object.name for names that are no method
   std::span<const ScriptVerb> (*methods)();
   std::span<const FieldDoc> fields;
 };
@@ -29,7 +29,7 @@ struct ScriptHooks {
   const ScriptVerb* describe;                                               ///< tostring() of all objects of sterna
   ScriptValue (*run)(const ScriptVerb& verb, const ScriptCall& call);       ///< runs the verb, or takes its result from the cache; models get their key
   ScriptValue (*stand_in)(const ScriptCall& call, std::string_view gives);  ///< see stand_in() of script_check.h
-  void (*set_option)(const Option& option, std::string_view text);          ///< as users type it on the command line
+  void (*set_option)(const Option& option, std::string_view text);          ///< sets an option from a text as users type it on the command line
   std::string (*hint_for_global)(std::string_view name);                    ///< suggestion for an unknown global; empty: no name is near
 };
 

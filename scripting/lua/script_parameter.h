@@ -19,7 +19,7 @@ struct ScriptParameter {
   std::optional<double> min, max;  ///< limits in `unit`
   std::optional<double> step;      ///< step in `unit`
   std::string unit = {};           ///< "deg"; empty: a plain number, string or flag
-  double unit_value = 1.0;         ///< SI value of the unit: a plain number on the command line is in this unit
+  double unit_value = 1.0;         ///< SI value of the unit, which plain numbers on the command line have
 };
 
 /// All arguments that a run has declared so far, in script and modules.

@@ -100,7 +100,7 @@ int require(lua_State* state) {
   return 1;
 }
 
-/// math.randomseed() without a number would use a seed from the clock; here it restarts the run's own sequence.
+/// Replaces math.randomseed. Without a number Lua would take a seed from the clock; here the run's own sequence is restarted.
 int random_seed(lua_State* state) {
   const int n = lua_gettop(state);
   lua_pushvalue(state, lua_upvalueindex(1));
@@ -110,8 +110,8 @@ int random_seed(lua_State* state) {
   return 0;
 }
 
-/// Lua seeds the order of its tables from addresses and the clock, so two runs of one script could differ. Here pairs() iterates over numbers, then strings, in
-/// ascending order; keys of other types come last, in Lua's order. Entries that are removed during the iteration are skipped.
+/// Replaces pairs(). Lua seeds the order of its tables from addresses and the clock, so two runs of one script could differ. Here pairs() iterates over
+/// numbers, then strings, in ascending order; keys of other types come last, in Lua's order. Entries that are removed during the iteration are skipped.
 constexpr std::string_view k_ordered_pairs = R"lua(
 local next, type, rawget, sort, getmetatable, unordered = next, type, rawget, table.sort, getmetatable, pairs
 local rank = { number = 1, string = 2 }
@@ -150,7 +150,7 @@ end
 
 // ---- The sandbox ---------------------------------------------------------------------------------------------------------------------------
 
-/// Calls Lua's own pcall or xpcall (upvalue 1); a stop is raised again.
+/// Calls Lua's own pcall or xpcall (upvalue 1). A stop that they catch is raised again.
 int protected_call(lua_State* state) {
   const int n = lua_gettop(state);
   lua_pushvalue(state, lua_upvalueindex(1));
@@ -178,7 +178,7 @@ int protected_call_with_handler(lua_State* state) {
   return protected_call(state);
 }
 
-/// Replaces setmetatable: Lua runs __gc where no hook is called, and a loop there could not be stopped.
+/// Replaces setmetatable to reject __gc: Lua runs it where no hook is called, and a loop there could not be stopped.
 int set_metatable(lua_State* state) {
   if (lua_type(state, 2) == LUA_TTABLE) {
     lua_pushliteral(state, "__gc");
@@ -262,7 +262,7 @@ void open_sandbox(lua_State* state) {
 
 namespace {
 
-/// For a script that is only checked: notes the problem; the script continues with an unknown value.
+/// Notes the problem for a script that is only checked. The script continues with an unknown value.
 bool note_unknown_name(lua_State* state, const char* name) noexcept {
   ScriptSession& session = session_of(state);
   if (!session.check || is_protected(state)) return false;
@@ -272,11 +272,11 @@ bool note_unknown_name(lua_State* state, const char* name) noexcept {
     session.check->problems.push_back(std::make_shared<const Error>(std::move(info)));
     return true;
   } catch (const std::exception&) {
-    return false;  // not enough memory: Lua's own message is used
+    return false;  // if memory is exhausted, Lua's own message is used
   }
 }
 
-/// An undefined name would be nil, and a table drops nil: unit = parsec would silently set no unit at all.
+/// Reports an undefined name. In Lua it would be nil, and a table drops nil: unit = parsec would silently set no unit at all.
 int unknown_global(lua_State* state) {
   if (lua_type(state, 2) != LUA_TSTRING) return 0;
   const char* name = lua_tostring(state, 2);

@@ -10,7 +10,7 @@
 namespace sterna::scripting {
 namespace {
 
-/// Upvalues: the metatable, and a function that returns true if a placeholder exists by now.
+/// Has two upvalues: the metatable, and a function that returns true if a placeholder exists by now.
 constexpr std::string_view k_prelude = R"lua(
 local meta, has_stand_ins = ...
 local setmetatable, getmetatable, rawequal, rawget, type, select, assert_truth = setmetatable, getmetatable, rawequal, rawget, type, select, assert

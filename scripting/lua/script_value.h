@@ -30,7 +30,7 @@ using ScriptValue =
 
 struct ScriptTable {
   std::vector<ScriptValue> items;             ///< entries 1, 2, ... n
-  std::map<std::string, ScriptValue> fields;  ///< named entries, by name: Lua's own order differs between runs
+  std::map<std::string, ScriptValue> fields;  ///< named entries, sorted by name, because Lua's own order differs between runs
   std::vector<std::string> unknown_fields;    ///< names of entries with unknown values (is_unknown); they are not among `fields`
   std::vector<std::string> other_keys;        ///< keys of other types, e.g. "[true]"
 };

@@ -17,7 +17,7 @@ void tell_object(lua_State* state, const std::string& name, bool is_of_script, i
   if (!object_name(value).empty()) session_of(state).watch->named(name, is_of_script, value);
 }
 
-/// Reports the value on top of the stack, which a local variable holds.
+/// Reports the value of a local variable, which is on top of the stack.
 void look_at_local(lua_State* state, const std::string& name, bool is_of_script) {
   const int top = lua_gettop(state);
   if (lua_type(state, top) == LUA_TUSERDATA) return tell_object(state, name, is_of_script, top);

@@ -16,10 +16,11 @@ struct lua_Debug;
 namespace sterna::scripting {
 
 struct ScriptWatch {
-  std::function<void(const ScriptCall& call, const ScriptValue& value)> made;  ///< after each verb that returned an object
-  /// Called when a function of the script, or the script itself, ends: for a local variable that holds an object, or a table that holds objects ("wings.left").
+  std::function<void(const ScriptCall& call, const ScriptValue& value)> made;  ///< called after each verb that returned an object
+  /// Called when a function of the script, or the script itself, ends. It receives each local variable that holds an object, or a table that holds objects
+  /// ("wings.left").
   std::function<void(std::string_view name, bool is_of_script, const ScriptValue& value)> named;
-  /// All arguments so far, in the order of their declaration; is_complete: no later args{} can add arguments.
+  /// Receives all arguments so far, in the order of their declaration. is_complete: no later args{} can add arguments.
   std::function<void(const std::vector<ScriptParameter>&, bool is_complete)> declared;
   bool is_sketch = false;             ///< solids that would be united stay side by side, for a quick view of their positions
   mutable bool has_left_out = false;  ///< a union was skipped for a sketch

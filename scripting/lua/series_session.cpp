@@ -5,7 +5,7 @@
 namespace sterna::scripting {
 
 std::string hash_of_input(const std::filesystem::path& path) {
-  std::error_code failure;  // a path that cannot be accessed is absent for the script, too: the reader reports the reason
+  std::error_code failure;  // the script cannot access the path either; the reader reports the reason
   if (!std::filesystem::is_regular_file(path, failure)) return k_absent;
   return io::hash_any_input(path);
 }

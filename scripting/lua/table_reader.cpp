@@ -20,7 +20,7 @@ bool is_stage(const OptionTable& options, std::string_view name) {
   return std::any_of(options.begin(), options.end(), [&](const Option& o) { return o.stage == name; });
 }
 
-/// Returns the name of a stage's option inside the stage's own table: without the stage's prefix.
+/// Returns the name of an option in its stage's own table, which is the name without the stage's prefix.
 std::string short_name(const Option& option) {
   const std::string prefix = std::string(option.stage) + "_";
   const std::string name(option.name);
@@ -37,7 +37,7 @@ std::string_view kind_text(OptionKind kind) {
   return "a value";
 }
 
-/// Returns a hint with a single string in place of a list of strings, if the option expects one string; else empty.
+/// Returns a hint to write a single string in place of a list of strings, if the option expects one string; else an empty text.
 std::string as_one_text(const Option& option, const ScriptValue& value) {
   const auto* list = std::get_if<TableHandle>(&value);
   if (option.kind != OptionKind::text || !list || (*list)->items.empty()) return {};
@@ -163,7 +163,7 @@ void TableReader::add_problem(std::string problem) { problems_.push_back(std::mo
 
 void TableReader::add_unknown(const std::string& key, const std::vector<std::string>& known) {
   const std::string nearest = nearest_name(key.substr(key.rfind('.') + 1), known);
-  // A mistyped key is one mistake: the missing option (see require()) is not reported in addition.
+  // A mistyped key is one mistake: it is not reported in addition as a missing option (see require()).
   if (!nearest.empty()) std::erase_if(problems_, [&](const std::string& problem) { return problem.starts_with("needs " + nearest + " ("); });
   add_problem("unknown key \"" + key + "\"" + (nearest.empty() ? "" : ", did you mean \"" + nearest + "\"?"));
   ++n_unknown_;

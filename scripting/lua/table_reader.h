@@ -1,4 +1,4 @@
-// The only reader of verbs' tables: collects every problem (unknown keys with a suggestion, wrong types, ranges, missing values) before it throws.
+// The only reader of verbs' tables. It collects every problem (unknown keys with a suggestion, wrong types, ranges, missing values) before it throws.
 #pragma once
 
 #include <map>
@@ -18,19 +18,19 @@ class TableReader {
  public:
   /// \p attempted is the start of the message: "case.lua:5: volume_mesh".
   TableReader(const ScriptTable& table, std::string attempted);
-  /// For a verb's own table: if the run only checks (script_check.h), the options are noted and finish() ends a heavy verb.
+  /// For a verb's own table. If the run only checks (script_check.h), the options are noted, and finish() ends a heavy verb.
   TableReader(const ScriptTable& table, const Attempt& attempted);
 
   /// Sets the options named in the table, flat ("layers = 30") or in a table by stage ("envelope = { layers = 30 }"; there the prefix of the stage's name may
   /// be omitted: "farfield = { radius = 50 }" for farfield_radius). Returns the number of named options.
   std::size_t read_options(const OptionTable& options);
-  /// Returns the function that the table has for this option, alone or in its stage's table; the option is then marked as given. Null: there is none. To be
-  /// called before read_options.
+  /// Returns the function that the table has for this option, alone or in its stage's table; the option is then marked as given. Returns null if there is none.
+  /// To be called before read_options.
   const FunctionHandle* option_function(std::string_view stage, std::string_view name);
   /// Returns true if the table names the option, alone or in its stage's table.
   /// \pre read_options
   bool is_given(std::string_view stage, std::string_view name) const { return given_.contains(std::string(stage) + "." + std::string(name)); }
-  /// Returns the length from flow conditions that the table has for this option; null: none.
+  /// Returns the length from flow conditions that the table has for this option; null if there is none.
   /// \pre read_options
   const QuantityValue* quantity_of(std::string_view stage, std::string_view name) const;
   bool has_problems() const { return !problems_.empty(); }
@@ -43,7 +43,8 @@ class TableReader {
   /// Notes a problem found by the caller.
   void add_problem(std::string problem);
 
-  /// \throws Error(bad_argument; unknown_option if all problems are unknown keys) with every problem of the table; ChecksDone if it ends the verb.
+  /// \throws Error(bad_argument, or unknown_option if all problems are unknown keys) with every problem of the table; ChecksDone if the check ends the verb
+  /// here.
   void finish();
 
  private:

@@ -19,7 +19,7 @@ namespace sterna::scripting {
 /// \throws Error(bad_argument) with the location of the call
 [[noreturn]] void reject(const ScriptCall& call, std::string problem, std::string hint = {});
 
-/// Returns the table of a call of the form verb{...}; a single string, as in read_surface "a.stl", becomes its first entry.
+/// Returns the table of a call verb{...}. If the argument is a single string, as in read_surface "a.stl", it becomes the first entry.
 ScriptTable table_argument(const ScriptCall& call, std::size_t index, std::string_view usage);
 
 /// Returns the object of a method or field.

@@ -1,4 +1,4 @@
-// The arrays of a report page: one blob of little-endian values that the page unpacks, and their offsets in its JSON (docs/report.md).
+// The arrays of a report page. They are one blob of little-endian values that the page unpacks; their offsets are in its JSON (docs/report.md).
 #pragma once
 
 #include <cstdint>
@@ -30,7 +30,7 @@ class PageArrays {
   std::string bytes_;
 };
 
-/// Rounds to ten bits of the mantissa, three digits: sufficient for colours, and half the bytes after compression.
+/// Rounds to ten bits of the mantissa, which are three digits. This is sufficient for colours, and halves the bytes after compression.
 float shortened(double value);
 
 /// Returns the whole page: the template with JSON and arrays filled in.

@@ -20,7 +20,7 @@ Json page_number(double value) { return std::isfinite(value) ? Json(value) : Jso
 Json page_point(const Point& p) { return Json::array({p.x, p.y, p.z}); }
 Json place_json(const ArrayPlace& place) { return {{"type", place.type}, {"at", place.at}, {"n", place.n}}; }
 
-/// Returns true for walls. Other boundaries are not part of the body; the size of the farthest does not indicate the body's size.
+/// Returns true for walls. Other boundaries are not part of the body, and the farthest of them does not indicate the body's size.
 bool is_body(PatchKind kind) { return kind == PatchKind::wall; }
 
 /// Patch numbers have 16 bits in a page.

@@ -1,4 +1,4 @@
-// The surface part of a report or workbench page: triangles with patches, edges and figures as arrays and their JSON (docs/report.md).
+// The surface part of a report or workbench page: triangles with patches, edges and figures, as arrays and the JSON that describes them (docs/report.md).
 #pragma once
 
 #include <array>
@@ -22,14 +22,14 @@ namespace sterna::scripting {
 struct PageTriangles {
   std::vector<std::array<std::uint32_t, 3>> triangles;
   std::vector<std::uint32_t> face;  ///< triangles, then quads
-  std::vector<std::uint8_t> edges;  ///< bit k: corner k to k + 1
+  std::vector<std::uint8_t> edges;  ///< bit k: the side from corner k to k + 1 is an edge of the face
   std::vector<std::uint16_t> patch;
   std::vector<std::uint8_t> is_of_body = {};  ///< by patch: shown by default (geom/mesh/body_patches.h); empty: all patches
 };
 PageTriangles page_triangles(const HybridMesh& mesh);
 PageTriangles page_triangles(const TriMesh& mesh);
 
-/// Returns a JSON object of the values and their description.
+/// Returns a JSON object of the values of a field and their description.
 std::string page_field_json(std::string_view name, std::string_view title, std::string_view unit, bool is_log, bool is_low_bad, const GateLimits& limits,
                             const std::vector<float>& values, PageArrays& arrays);
 

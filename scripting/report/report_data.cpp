@@ -84,10 +84,10 @@ Json facts_json(const MeshValue& value) {
 
 std::string title_of(const ReportOptions& options, std::string_view name) { return options.title == "automatic" ? std::string(name) : options.title; }
 
-/// Returns the user's cuts, then the automatic cuts that the user does not name. A user's plane is viewed at its point nearest to the centre of the bodies.
+/// Returns the user's cuts, then the automatic cuts that the user has not named. A user's plane is viewed at its point nearest to the centre of the bodies.
 std::vector<CutPlace> places_of(const HybridMesh& mesh, const std::vector<std::string>& wanted, bool with_automatic, const PageMaker& maker,
                                 const RunContext& context) {
-  constexpr double k_radius_share = 0.6;  // relative to the bodies' length: all bodies are visible
+  constexpr double k_radius_share = 0.6;  // radius relative to the bodies' length, so that all bodies are visible
   std::vector<CutPlace> automatic = automatic_cuts(mesh, context), places;
   for (const std::string& text : wanted) {
     if (const std::optional<CutPlane> plane = draw::plane_of(text)) {
@@ -188,7 +188,7 @@ std::string report_html(const SurfaceValue& surface, const ReportOptions& option
   const PageMaker maker(mesh.points.raw(), triangles, mesh.patches, fields);
   const std::string title = title_of(options, name);
   Json head = {{"schema", "sterna-report-1"}, {"program", "sterna " STERNA_VERSION}, {"title", title}, {"kind", "surface"}};
-  head["facts"] = Json::array();  // pairs of strings in braces would be an object
+  head["facts"] = Json::array();  // array of pairs: a pair of strings in braces would become an object
   const auto add_fact = [&](const char* fact, const std::string& text) { head["facts"].push_back(Json::array({fact, text})); };
   add_fact("triangles", count_text(static_cast<std::int64_t>(mesh.n_triangles())));
   add_fact("vertices", count_text(static_cast<std::int64_t>(mesh.n_vertices())));

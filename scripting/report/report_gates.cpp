@@ -34,7 +34,7 @@ void add_places(const Json& measure, Json& places) {
   }
 }
 
-/// Adds locations forced by the input surface; these are listed separately, after the mesher's own defects.
+/// Adds locations that are forced by the input surface. They are listed separately, after the mesher's own defects.
 void add_forced(const Json& measure, Json& places) {
   int rank = 0;
   for (const Json& place : measure["forced_places"])

@@ -88,7 +88,7 @@ ThinSurface thin_surface(std::span<const Point> points, std::span<const std::arr
     low = {std::min(low.x, p.x), std::min(low.y, p.y), std::min(low.z, p.z)};
     high = {std::max(high.x, p.x), std::max(high.y, p.y), std::max(high.z, p.z)};
   }
-  // Starts with the mean edge length as cube width, where a cube holds about one vertex: certainly too fine.
+  // The first cube width is the mean edge length. A cube then holds about one vertex, which is certainly too fine.
   double edges = 0.0;
   for (const auto& t : triangles) edges += distance(points[t[0]], points[t[1]]);
   double width = std::max(edges / static_cast<double>(triangles.size()), std::max({high.x - low.x, high.y - low.y, high.z - low.z}) / k_most_cubes);

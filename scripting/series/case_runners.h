@@ -24,7 +24,7 @@ struct RunnerContext {
   const SeriesPlan& plan;
   std::vector<std::string> worker;                                 ///< command line of a worker, to which --series-case NAME/INDEX and --threads N are added
   int lock = -1;                                                   ///< descriptor of the lock on the series folder
-  int tasks = 1, threads = 1;                                      ///< simultaneous cases (0: no limit), threads per case
+  int tasks = 1, threads = 1;                                      ///< number of simultaneous cases (0: no limit), number of threads per case
   std::function<void(const CaseTask&, const CaseStatus&)> on_end;  ///< called once for each case, with its final status
   const RunContext& run;
 };
@@ -43,8 +43,8 @@ void cancel_left_jobs(const std::filesystem::path& folder, const RunContext& con
 
 /// Prepares a case before its worker is started: creates the folder, and invalidates the status of an earlier run, so that it is not mistaken for this run's.
 void prepare(const CaseTask& task, const RunContext& context);
-/// Returns the status of a case after its worker has ended. A status that is not final, or has another key, is replaced by `otherwise`, which is written to the
-/// folder. A final status with another key that did not exist at prepare() comes from another build, which is reported.
+/// Returns the status of a case after its worker has ended. A status that is not final, or has another key, is replaced by `otherwise`, which is then written
+/// to the folder. A final status that appeared after prepare() and has another key comes from another build, which is reported.
 CaseStatus settle(const CaseTask& task, const CaseStatus& otherwise, const RunContext& context);
 
 }  // namespace sterna::scripting

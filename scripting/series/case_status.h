@@ -1,5 +1,5 @@
-// status.json in the folder of a case: its state and, after its end, all data that a later run needs to reuse it. A final status does not depend on time,
-// location or number of threads.
+// Defines status.json in the folder of a case. It holds the state of the case and, after its end, all data that a later run needs to reuse the case. A final
+// status does not depend on time, location or number of threads.
 #pragma once
 
 #include <cstdint>
@@ -14,7 +14,7 @@
 namespace sterna::scripting {
 
 enum class CaseState {
-  none,     ///< never begun, or no reliable information
+  none,     ///< the case was never begun, or there is no reliable information
   running,  ///< running in a process, or the process died without a final status
   done,
   failed,  ///< the function raised an error
@@ -33,19 +33,19 @@ struct MeshFigures {
 struct CaseStatus {
   CaseState state = CaseState::none;
   std::string key;                             ///< case_key()
-  std::map<std::string, std::string> inputs;   ///< file as searched for -> hash_of_input
-  std::map<std::string, std::string> outputs;  ///< file in the folder -> hash
+  std::map<std::string, std::string> inputs;   ///< hash of each file that was searched, by name (hash_of_input)
+  std::map<std::string, std::string> outputs;  ///< hash of each file in the folder, by name
   std::vector<std::string> found;              ///< files in the folder before the case that are not its own
 
-  MeshFigures mesh;                ///< done
-  std::string result;              ///< done: the function's return value as JSON; "null" for values that are not plain
-  std::string code;                ///< failed: the ErrorCode
-  std::string message;             ///< failed: the full text; killed: the cause
-  std::vector<ErrorPlace> places;  ///< failed
-  bool is_of_machine = false;      ///< failed for lack of memory, disk space or processes: another run may succeed
+  MeshFigures mesh;                ///< only if done
+  std::string result;              ///< if done: the function's return value as JSON; "null" for values that are not plain
+  std::string code;                ///< if failed: the ErrorCode
+  std::string message;             ///< if failed: the full text; if killed: the cause
+  std::vector<ErrorPlace> places;  ///< locations of the error, if failed
+  bool is_of_machine = false;      ///< if failed: memory, disk space or processes were lacking, so another run may succeed
 
-  std::int64_t process = 0;  ///< running
-  std::string host;          ///< running
+  std::int64_t process = 0;  ///< process id, while running
+  std::string host;          ///< host name, while running
 
   bool is_final() const { return state == CaseState::done || state == CaseState::failed; }
 };
@@ -66,8 +66,8 @@ bool is_current(const CaseStatus& status, const std::filesystem::path& folder, c
 /// Returns the hashes of all files in the folder that are not in `found`, except status, measure and log; links are not followed.
 std::map<std::string, std::string> outputs_in(const std::filesystem::path& folder, const std::vector<std::string>& found);
 
-/// Removes the outputs of an earlier run of the case; if that run was killed, all files that it did not find there. Returns the files that do not belong to the
-/// case.
+/// Removes the outputs of an earlier run of the case. If that run was killed, removes all files except those that it found in the folder. Returns the files
+/// that do not belong to the case.
 /// \throws Error(write_failed) if a file cannot be removed
 std::vector<std::string> clear_case_folder(const std::filesystem::path& folder, const CaseStatus& before);
 

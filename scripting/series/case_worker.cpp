@@ -72,7 +72,7 @@ void write_measure(const ScriptSession& session, double seconds, const fs::path&
   io::write_whole(folder / k_measure_file, json.dump(2) + "\n");
 }
 
-/// Returns the error message without the step common to all cases: the call of their function.
+/// Returns the error message without the first step, the call of the function, which is common to all cases.
 std::string message_of_function(const Error& error) {
   ErrorInfo info = error.info();
   if (info.attempted != k_calling_function) return error.what();
@@ -118,7 +118,7 @@ ScriptValue argument_of(const SeriesCase& c) {
 
 void become_worker() {
   prctl(PR_SET_PDEATHSIG, SIGTERM);
-  // In a worker that was not started by a pool, setting this flag on an unrelated descriptor of that number is harmless.
+  // If the worker was not started by a pool, the descriptor of that number is unrelated, and setting this flag on it is harmless.
   fcntl(k_series_lock_descriptor, F_SETFD, FD_CLOEXEC);
 }
 

@@ -10,13 +10,13 @@
 
 namespace sterna::scripting {
 
-/// Starts a worker with stdout and stderr in `output` (emptied first); it inherits `lock`, unless that is -1, as descriptor k_series_lock_descriptor.
-/// `folder`: its working directory, if not empty.
+/// Starts a worker with stdout and stderr in `output`, which is emptied first. The worker inherits `lock`, unless that is -1, as descriptor
+/// k_series_lock_descriptor. `folder`: its working directory, if not empty.
 /// \throws Error(file_not_found, internal) if it cannot be started
 ChildProcess start_worker(const std::vector<std::string>& words, const std::filesystem::path& output, int lock, const std::filesystem::path& folder = {});
 
 struct CommandResult {
-  int status = 0;      ///< exit status; 128 + signal
+  int status = 0;      ///< exit status; 128 + signal number if a signal ended the process
   std::string output;  ///< stdout
   std::string errors;  ///< stderr
 };

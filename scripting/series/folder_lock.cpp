@@ -19,7 +19,7 @@ namespace sterna::scripting {
 namespace {
 
 constexpr mode_t k_lock_file_mode = 0666;  ///< reduced by the umask
-/// Workers end within a second of their parent's death.
+/// Longest wait for the workers of a killed run, which end within a second of their parent's death; pause between two attempts.
 constexpr std::chrono::milliseconds k_patience{5000}, k_lock_pause{20};
 constexpr int k_least_descriptor = 10;  ///< above the descriptors passed to a worker
 
@@ -28,7 +28,7 @@ std::string locking_host() {
   return gethostname(name.data(), name.size() - 1) == 0 ? name.data() : "";
 }
 
-/// Holder of the lock: "process 123 on host", and true if the process is known to be dead.
+/// The process that holds the lock, which may be dead by now.
 struct Holder {
   long pid = 0;
   std::string host;

@@ -23,13 +23,13 @@ constexpr std::chrono::milliseconds k_pause{5};         ///< between two checks 
 constexpr std::chrono::milliseconds k_stop_grace{800};  ///< grace period of a worker after a stop request; Ctrl-C must take effect within a second
 constexpr std::size_t k_quoted = 2000;                  ///< bytes of a log for a message
 
-/// Suffix for the key of a status that must not be mistaken for this run's.
+/// Suffix that is added to the key of an old status, so that the status is not mistaken for this run's.
 constexpr const char* k_of_earlier_run = " of an earlier run";
 
 struct Running {
   const CaseTask* task;
   ChildProcess process;
-  long kills_before;  ///< earlier kills by the system due to lack of memory
+  long kills_before;  ///< number of earlier kills by the system due to lack of memory
 };
 
 /// Returns the number of processes killed by the system for lack of memory since boot; -1 if unknown.
@@ -104,7 +104,7 @@ CaseStatus settle(const CaseTask& task, const CaseStatus& otherwise, const RunCo
   const CaseStatus status = read_status(task.folder, context);
   if (status.key == task.key && (status.is_final() || status.state == CaseState::killed)) return status;
   CaseStatus settled = otherwise;
-  // Build and script are part of the key, so this worker belonged to another build or script.
+  // Build and script are part of the key. A worker with another key therefore belonged to another build or script.
   if (status.is_final() && !status.key.empty() && !status.key.ends_with(k_of_earlier_run)) {
     settled.state = CaseState::killed;
     settled.message = "the case was run by another build of sterna, or with a script that was changed during the run: run the series again";

@@ -17,8 +17,8 @@ bool is_blank(char c) { return std::isspace(static_cast<unsigned char>(c)) != 0;
 void find_entries(const std::string& s, const TableCall& table, std::vector<std::pair<std::size_t, std::size_t>>& found) {
   constexpr std::array<std::string_view, 2> k_names = {"run", "retry"};
   int depth = 0;
-  std::size_t begin = std::string::npos;  // start of the entry to be left out
-  bool is_first = true;                   // only blanks since the last separator
+  std::size_t begin = std::string::npos;  // start of the entry that is left out
+  bool is_first = true;                   // there were only blanks since the last separator
   look_through(s, table.begin, [&](std::size_t at) {
     const char c = s[at];
     if (at >= table.end || (depth == 0 && (c == ',' || c == ';'))) {

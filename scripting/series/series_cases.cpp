@@ -15,7 +15,7 @@
 namespace sterna::scripting {
 namespace {
 
-/// Axis of the product of cases: a case merges one choice of each axis.
+/// Axis of the product of cases. A case takes one choice of each axis and merges them.
 using Axis = std::vector<ScriptTable>;
 
 /// Maximum bytes of a folder name: file systems accept 255, and a path holds several names.
@@ -95,7 +95,7 @@ std::string number_text(double value) {
   return {text.data(), end};
 }
 
-/// Returns the value for a name; sets `is_doubtful` if another value could have the same spelling.
+/// Returns the value as text for a name. Sets `is_doubtful` if another value could have the same text.
 std::string text_of(const ScriptValue& value, bool& is_doubtful) {
   if (const auto* whole = std::get_if<std::int64_t>(&value)) return std::to_string(*whole);
   if (const auto* number = std::get_if<double>(&value)) return number_text(*number);

@@ -98,7 +98,7 @@ Json case_json(const SeriesPlan& plan, const CaseResult& result, const std::vect
 
 /// Adds the pictures of all cases within the size limit.
 void add_pictures(const SeriesPlan& plan, std::span<const CaseResult> results, Json& cases) {
-  constexpr std::size_t k_share = 2;  // inverse share of the page size; base64 adds a third
+  constexpr std::size_t k_share = 2;  // pictures may fill one k_share-th of the page; base64 adds a third to their size
   std::map<std::size_t, std::string> pictures;
   std::size_t total = 0;
   for (std::size_t i = 0; i < results.size(); ++i) {

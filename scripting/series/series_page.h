@@ -1,4 +1,4 @@
-// The page of a series (docs/report.md), which compares its cases.
+// The page of a series, which compares its cases (docs/report.md).
 #pragma once
 
 #include <span>
@@ -8,9 +8,9 @@
 
 namespace sterna::scripting {
 
-/// Returns the page as a single HTML file. Each case has parameters, verdict, figures and gates from its quality.json and measure.json; its first picture
-/// (.png) is shown, its first page (.html) linked. Pictures are left out, largest first, if the page would exceed k_most_page_bytes. Empty in a build without
-/// the page.
+/// Returns the page as a single HTML file. Each case has parameters, verdict, figures and gates from its quality.json and measure.json. Its first picture
+/// (.png) is shown, its first page (.html) is linked. If the page would exceed k_most_page_bytes, pictures are left out, largest first. Empty in a build
+/// without the page.
 std::string series_page_html(const SeriesPlan& plan, std::span<const CaseResult> results);
 
 }  // namespace sterna::scripting

@@ -15,14 +15,14 @@ namespace sterna::scripting {
 /// Options of jobs{ 2, threads = 1 }: processes on this machine.
 struct JobsOptions {
   int tasks = 0;    ///< simultaneous cases; 0: one per k_cores_per_task cores
-  int threads = 0;  ///< per case; 0: the threads of the run, shared by the tasks
+  int threads = 0;  ///< threads per case; 0: the threads of the run are shared by the tasks
 };
 
 /// Options of slurm{ partition = "cfd", tasks = 64 }.
 struct SlurmOptions {
   std::string partition;
   int tasks = 0;     ///< simultaneous cases; 0: no limit, the cluster decides
-  int threads = 1;   ///< per case
+  int threads = 1;   ///< threads per case
   std::string time;  ///< time limit of a case in sbatch's format
 };
 
@@ -47,11 +47,11 @@ struct SeriesPlan {
   std::filesystem::path folder_of(const SeriesCase& c) const { return folder / c.name; }
 };
 
-/// Returns a hash (16 hex digits) of everything that determines a case except the files that it reads: script (script_essence.h), parameters, name and index,
-/// command line, seed, version and build, the tables of earlier series.
+/// Returns a hash (16 hex digits) of everything that determines a case, except the files that it reads: script (script_essence.h), parameters, name and index,
+/// command line, seed, version and build, and the tables of earlier series.
 std::string case_key(const SeriesPlan& plan, const SeriesCase& c, const ScriptSession& session);
 
-/// Returns the text of case.json: the data behind case_key(), for human readers and other programs.
+/// Returns the text of case.json, which holds the data behind case_key() for human readers and other programs.
 std::string case_json(const SeriesPlan& plan, const SeriesCase& c, const ScriptSession& session);
 
 }  // namespace sterna::scripting

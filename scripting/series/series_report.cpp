@@ -38,8 +38,7 @@ std::string reused_of(const CaseResult& result) {
   std::string text = result.is_kept ? "the case" : "";
   const auto add = [&](const std::string& entry) { text += (text.empty() ? "" : ", ") + entry; };
   // Cached stages of one kind are counted: "3 surface_mesh". Stages that involve a reference are listed as reported, without reasons and locations: "envelope
-  // of wing:
-  // made from scratch".
+  // of wing: made from scratch".
   std::map<std::string, int> kinds;
   for (const std::string& stage : result.reused)
     if (stage.find(": ") == std::string::npos) ++kinds[stage.substr(0, stage.find(' '))];
@@ -114,7 +113,7 @@ std::string plain_text(const ScriptTable& parameters, const std::string& name) {
 void read_measure(const std::filesystem::path& folder, CaseResult& result) {
   std::ifstream file(folder / k_measure_file, std::ios::binary);
   const Json json = Json::parse(file, nullptr, false);
-  if (!json.is_object()) return;  // killed before the measurement
+  if (!json.is_object()) return;  // the case was killed before the measurement
   result.seconds = json.value("seconds", 0.0);
   result.reused = json.value("reused", std::vector<std::string>{});
 }
@@ -134,7 +133,7 @@ std::map<std::string, std::string> gate_states(const std::filesystem::path& fold
   return gates;
 }
 
-/// Sorts G3 before G10.
+/// Order of gates by number: G3 comes before G10.
 struct GateOrder {
   bool operator()(const std::string& a, const std::string& b) const {
     const auto number = [](const std::string& gate) {

@@ -15,7 +15,7 @@ struct CaseResult {
   const SeriesCase* of = nullptr;
   CaseStatus status;
   bool is_kept = false;             ///< reused from an earlier run
-  double seconds = 0.0;             ///< duration of the run that made the result, possibly an earlier run
+  double seconds = 0.0;             ///< duration of the run that made the result; this may be an earlier run
   std::vector<std::string> reused;  ///< stages from the cache, in that run
 };
 
@@ -32,7 +32,7 @@ std::string outcome_text(const CaseStatus& status);
 std::string table_text(const SeriesPlan& plan, std::span<const CaseResult> results);
 /// Returns the table as CSV with a column per parameter.
 std::string table_csv(const SeriesPlan& plan, std::span<const CaseResult> results);
-/// Returns the table as JSON, schema sterna-series-1; all data that depend on time, location and cache are in the entry "measure".
+/// Returns the table as JSON, schema sterna-series-1. All data that depend on time, location and cache are in the entry "measure".
 std::string table_json(const SeriesPlan& plan, std::span<const CaseResult> results);
 /// Returns table_json() without "measure": the return value of series{}.
 std::string result_json(const SeriesPlan& plan, std::span<const CaseResult> results);

@@ -22,7 +22,7 @@ namespace {
 
 namespace fs = std::filesystem;
 
-/// Cores per case for simultaneous cases, unless the script specifies another number. With fewer cores per case, more processes gain more than more threads do.
+/// Default number of cores per case. More processes with few cores each gain more than more threads per process.
 constexpr int k_cores_per_task = 4;
 
 /// Makes the table available to later series and returns it as a value.
@@ -55,8 +55,8 @@ ScriptValue result_of_earlier(const ScriptCall& call, const SeriesPlan& plan) {
 
 // ---- In the main process -------------------------------------------------------------------------------------------------------------------
 
-/// During its lifetime, the series handles a stop of the program: it ends workers and jobs and records their results, which may take longer than other work is
-/// allowed to take.
+/// Makes the series handle a stop of the program during its lifetime. The series ends workers and jobs and records their results, which may take longer than
+/// other work is allowed to take.
 class StopNotice {
  public:
   explicit StopNotice(const std::function<void(bool)>& tell) : tell_(tell) {
@@ -155,11 +155,11 @@ class SeriesRun {
     context_.log(is_done ? LogLevel::info : LogLevel::warning, plan_.name + " " + std::to_string(n_over_) + "/" + std::to_string(plan_.cases.size()) + ": " +
                                                                    c.name + ": " + outcome_text(status) +
                                                                    (is_kept ? ", from an earlier run" : ", " + duration_text(result.seconds)));
-    if (context_.stop_token().stop_requested()) return;  // progress() would throw, and the runner stops the workers more gently
+    if (context_.stop_token().stop_requested()) return;  // progress() would throw here; the runner stops the workers more gently
     context_.progress(static_cast<double>(n_over_) / static_cast<double>(plan_.cases.size()));
   }
 
-  /// Marks cases as failed that start from the reference, after the reference has failed.
+  /// Marks the cases that start from the reference as failed, after the reference has failed.
   void give_up(const std::vector<std::size_t>& indices) {
     for (const std::size_t i : indices) {
       const SeriesCase& c = plan_.cases[i];
@@ -199,7 +199,7 @@ ScriptValue run_all(const ScriptCall& call, const SeriesPlan& plan) {
 
 // ---- Check mode of scripts -------------------------------------------------------------------------------------------------------------------
 
-/// Calls the function once, with the first case, and returns a table as if all cases were done: no process, no folder.
+/// Calls the function once, with the first case, and returns a table as if all cases were done. Starts no process and makes no folder.
 ScriptValue check_first(const ScriptCall& call, const SeriesPlan& plan) {
   SeriesSession& series = call.session.series;
   CaseStatus as_if{.state = CaseState::done};

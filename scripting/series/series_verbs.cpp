@@ -247,7 +247,7 @@ ScriptValue series_verb(const ScriptCall& call) {
   const ScriptTable table = table_argument(call, 0, k_series_usage);
   SeriesPlan plan;
   Attempt attempted = call.attempted();
-  attempted.ends_with_checks = false;  // also checks the function of the cases
+  attempted.ends_with_checks = false;  // the function of the cases is also checked
   TableReader reader(table, attempted);
   read_name(reader.items(), plan, reader);
   read_over(reader, plan);

@@ -1,5 +1,5 @@
-// Cases as Slurm job arrays. A job runs the same program on the same script and reports through the folder of its case. The queue is queried only for jobs that
-// have ended without a report.
+// Runs cases as Slurm job arrays. A job runs the same program on the same script and reports through the folder of its case. The queue is queried only for jobs
+// that have ended without a report.
 #include <algorithm>
 #include <chrono>
 #include <fstream>
@@ -22,14 +22,15 @@ namespace fs = std::filesystem;
 
 constexpr std::chrono::milliseconds k_look_pause{100};    ///< between two checks of the case folders
 constexpr std::chrono::milliseconds k_queue_pause{2000};  ///< between two queries of the queue, which the whole cluster shares
-/// Number of queries that must miss a job before it counts as lost: its last files may still be in transfer through the network file system.
+/// Number of successive queries in which a job must be missing before it counts as lost: its last files may still be in transfer through the network file
+/// system.
 constexpr int k_misses = 2;
-/// Maximum number of successive queries without an answer: controllers restart, networks fail for a while. More than half an hour in total, because squeue
-/// itself retries for some time. Cases that end meanwhile are detected by their folders.
+/// Maximum number of successive queries without an answer, because controllers restart and networks fail for a while. In total this is more than half an hour,
+/// since squeue itself retries for some time. Cases that end meanwhile are detected by their folders.
 constexpr int k_deaf_questions = 900;
-constexpr std::size_t k_array_size = 1000;             ///< jobs of an array: clusters allow 1001 by default
-constexpr std::chrono::seconds k_cancel_patience{60};  ///< Slurm kills 30 s after the stop request
-constexpr const char* k_jobs_file = "jobs";            ///< in the folder slurm/: ids of the arrays that may be in the queue
+constexpr std::size_t k_array_size = 1000;             ///< maximum number of jobs of an array; clusters allow 1001 by default
+constexpr std::chrono::seconds k_cancel_patience{60};  ///< longest wait for the end of jobs: Slurm kills them 30 s after the stop request
+constexpr const char* k_jobs_file = "jobs";            ///< file in the folder slurm/ with the ids of the arrays that may be in the queue
 
 /// Quotes a word for a POSIX shell, in single quotes.
 std::string quoted(const std::string& word) {
@@ -49,7 +50,7 @@ CommandResult run_or_throw(const std::vector<std::string>& words, const RunConte
 }
 
 /// Returns the job script, which contains the list of its cases. Slurm keeps a copy of the script, and a restarted controller may start a job of an earlier run
-/// again. (With a list in a file, this job would read the list of the next run and work on another case.)
+/// again. If the list were in a file, that job would read the list of the next run and work on another case.
 std::string job_script(std::span<const CaseTask> tasks, const RunnerContext& runner) {
   const std::size_t n_tasks = tasks.size();
   std::string text = "#!/bin/sh\n#SBATCH --job-name=" + runner.plan.name + "\n#SBATCH --array=1-" + std::to_string(n_tasks);
@@ -125,7 +126,7 @@ class SlurmArray {
 
  private:
   [[noreturn]] void cancel() {
-    run_command({"scancel", id_}, RunContext({.threads = 1}));  // with a separate run context: this run is stopped
+    run_command({"scancel", id_}, RunContext({.threads = 1}));  // this run has been stopped, so scancel has its own run context
     runner_.run.check_stop();
     throw Error({.code = ErrorCode::cancelled, .attempted = runner_.plan.name, .problem = "stopped on request"});
   }

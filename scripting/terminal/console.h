@@ -1,4 +1,4 @@
-// Terminal output: results on stdout; log lines, errors and the progress line on stderr; optionally a log file.
+// Terminal output. Results go to stdout; log lines, errors and the progress line go to stderr, and optionally to a log file.
 #pragma once
 
 #include <filesystem>

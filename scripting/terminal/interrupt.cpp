@@ -13,8 +13,8 @@
 namespace sterna::scripting {
 namespace {
 
-constexpr long k_poll_ns = 50'000'000;  // interval of the waiter's checks for the end of the program and for late work
-/// Ctrl-C must take effect within a second.
+constexpr long k_poll_ns = 50'000'000;  // interval of the waiting thread's checks for the end of the program and for late work
+/// Time after which work is late: Ctrl-C must take effect within a second.
 constexpr std::chrono::milliseconds k_late{750};
 
 sigset_t stop_signals() {
@@ -76,7 +76,7 @@ void InterruptGuard::renew() {
 void InterruptGuard::leave_to_work(bool is_left) {
   const std::lock_guard lock(mutex_);
   is_left_to_work_ = is_left;
-  if (requested_) requested_ = std::chrono::steady_clock::now();  // work after this has its own time limit
+  if (requested_) requested_ = std::chrono::steady_clock::now();  // the work after this gets its own time limit
 }
 
 void InterruptGuard::wait_for_signals(const std::stop_token& is_over) {

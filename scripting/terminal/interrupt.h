@@ -9,8 +9,8 @@
 
 namespace sterna::scripting {
 
-/// During its lifetime, a separate thread converts SIGINT and SIGTERM to a stop request; the second signal ends the program at once (status 130). If the work
-/// does not stop in time (a library that does not check for stops, an endless Lua pattern), the program ends, too: helpers are killed and temporary files
+/// During its lifetime, a separate thread converts SIGINT and SIGTERM to a stop request. The second signal ends the program at once (status 130). The program
+/// also ends if the work does not stop in time (a library that does not check for stops, an endless Lua pattern). Helpers are then killed and temporary files
 /// removed, so that no half-written files are left.
 /// \pre constructed before any other thread is started, so that all of them inherit the blocked signals.
 class InterruptGuard {
@@ -23,9 +23,9 @@ class InterruptGuard {
   std::stop_token token() const;
   /// Replaces a stopped token by a new one, for a prompt that continues.
   void renew();
-  /// Lets the program wait for work that does not stop, for a prompt, which reports this.
+  /// For a prompt: lets the program wait for work that does not stop. The prompt reports that it waits.
   void wait_for_late_work() { ends_late_work_ = false; }
-  /// Marks work that ends by itself after an arbitrary time (a series waits for its jobs to end): then only a second Ctrl-C ends the program.
+  /// Marks work that ends by itself after an arbitrary time, such as a series that waits for its jobs to end. Then only a second Ctrl-C ends the program.
   void leave_to_work(bool is_left);
 
  private:

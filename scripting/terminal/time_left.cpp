@@ -5,7 +5,7 @@
 namespace sterna::scripting {
 namespace {
 
-/// After a fraction above this value, a fraction of zero means new work, not a repetition.
+/// A fraction of zero after a fraction above this value means new work, not a repetition.
 constexpr double k_over = 0.9;
 
 }  // namespace
@@ -26,7 +26,7 @@ void TimeLeft::note(const ProgressState& state, double seconds) {
 
 std::optional<double> TimeLeft::estimate() const {
   if (share_ < k_least_share || now_ < k_least_seconds) return std::nullopt;
-  const double whole = at_share_ / share_;  // fractions are fractions of the time
+  const double whole = at_share_ / share_;  // progress fractions are assumed to be fractions of the time
   return std::max(0.0, whole - now_);
 }
 

@@ -12,7 +12,7 @@ namespace sterna::scripting {
 class TimeLeft {
  public:
   /// Records the state at a time. A new piece of work begins with a fraction of zero after one close to 1, or with a decreasing fraction in another first
-  /// stage. A fraction that decreases within a stage (a part is repeated) counts as the largest so far.
+  /// stage. If a part is repeated and the fraction decreases within a stage, the largest fraction so far is used.
   void note(const ProgressState& state, double seconds);
   /// Returns the remaining seconds from the latest note; empty before k_least_share of the work and k_least_seconds, when there is too little information.
   std::optional<double> estimate() const;
@@ -26,7 +26,7 @@ class TimeLeft {
   std::string work_;  ///< first name of the stage
   double start_ = 0.0;
   double share_ = 0.0;
-  double at_share_ = 0.0;  ///< seconds from the start to the time when this fraction was reached
+  double at_share_ = 0.0;  ///< seconds from the start until the present fraction was reached
   double now_ = 0.0;       ///< seconds from the start
 };
 

@@ -1,4 +1,5 @@
-// Steps: components -> description; description -> components side by side; patch names known only to scripts are set; union if requested.
+// Steps: convert components to a description; make the components of the description side by side; set patch names that only scripts know; unite the components
+// if requested.
 #include "scripting/values/aircraft_model.h"
 
 #include <fmt/format.h>
@@ -22,7 +23,7 @@ void finish_component(Model& model, const ComponentValue& component, const std::
     if (model.components[c].name != name) continue;
     for (ModelFace& face : model.faces) {
       if (face.component != c) continue;
-      // An engine that is present takes in the fluid at its fan face: flow out of the domain.
+      // The engine takes in the fluid at its fan face, which is an outflow of the domain.
       const auto rename = [&](const std::string& patch, PatchKind kind) {
         if (patch.empty()) return;
         face.name = is_image ? image_name(patch) : patch;

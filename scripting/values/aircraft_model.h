@@ -1,4 +1,4 @@
-// Components that scripts describe, combined: the aircraft as data, and as a model.
+// Components that scripts describe, combined to the aircraft as data, and to the aircraft as a model.
 #pragma once
 
 #include <string>
@@ -21,7 +21,7 @@ struct AircraftParts {
 /// \throws Error(bad_argument) if two components have the same name
 Aircraft aircraft_of(const AircraftParts& parts);
 
-/// Returns all components side by side, mirror images included, with their kinds and the patch names of engines. Control surfaces are deflected as set in the
+/// Returns all components side by side, including mirror images, with their kinds and the patch names of engines. Control surfaces are deflected as set in the
 /// script.
 /// \throws Error of make_components
 ModelValue make_aircraft(const AircraftParts& parts, const RunContext& context);

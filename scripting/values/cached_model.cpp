@@ -54,7 +54,7 @@ using ShapeOf = std::function<std::shared_ptr<const CadShape>(std::size_t)>;
 /// \throws NotKept
 void write_model_value(ByteSink& sink, const ModelValue& value) {
   const auto& [model, description, without_description, is_as_described, inputs, report, sizes, layers, parts, through, provenance] =
-      value;  // all members: a new one does not compile
+      value;  // lists all members, so that a new member does not compile until it is handled
   ModelWriter writer(sink);
   writer.model(model);
   write_value(sink, description);
@@ -73,7 +73,7 @@ void write_model_value(ByteSink& sink, const ModelValue& value) {
     write_value(sink, key.has_value());
     if (key) write_value(sink, key->bytes);
   }
-  static_cast<void>(provenance);  // known to the reader of the entry
+  static_cast<void>(provenance);  // the reader of the entry knows it
 }
 
 ModelValue read_model_value(ByteSource& source, const ShapeOf& shape_of) {
@@ -101,7 +101,7 @@ ModelValue read_model_value(ByteSource& source, const ShapeOf& shape_of) {
   return value;
 }
 
-/// Returns the bytes of a model that is unchanged after reading back. Empty: it would change; the log reports the reason.
+/// Returns the bytes of a model that is unchanged after reading back. Empty if it would change; the log then reports the reason.
 std::string bytes_of(const ModelValue& value, std::string_view verb, const RunContext& context) {
   const auto written = [](const ModelValue& v) {
     MemorySink sink;
@@ -120,7 +120,7 @@ std::string bytes_of(const ModelValue& value, std::string_view verb, const RunCo
   return {};
 }
 
-/// Adds the data that a key by content omits, but that are part of the model's value or messages. Returns false if there is a function, because its results are
+/// Adds the data that a key by content omits, although they are part of the model's value or messages. Returns false for a function, because its results are
 /// unknown before it is called.
 bool add_names(const ScriptValue& value, KeyMaker& maker) {
   const auto add_inputs = [&](const std::vector<InputFile>& inputs) {
@@ -155,13 +155,13 @@ ScriptValue frozen(const ScriptValue& value) {
   return TableHandle(std::move(copy));
 }
 
-/// The verb's model, computed when data are needed that are not stored.
+/// The verb's model, which is computed only when data are needed that are not stored.
 class MadeLater {
  public:
   MadeLater(const ScriptVerb& verb, const ScriptCall& call, const ContentKey& bytes_key) : verb_(verb), call_(call), bytes_key_(bytes_key) {
     for (ScriptValue& argument : call_.arguments) argument = frozen(argument);
   }
-  /// Returns the shape of the n-th model that was written: the whole, then the different models of parts.
+  /// Returns the shape of the n-th model that was written: the whole model first, then the different models of parts.
   std::shared_ptr<const CadShape> shape(std::size_t n) {
     std::call_once(is_made_, [&] { made_ = make(); });
     if (n == 0) return made_->model.shape;

@@ -1,13 +1,13 @@
-// Models of verbs that read or unite models, taken from a cache if present.
+// Takes models of verbs that read or unite models from a cache if present.
 #pragma once
 
 #include "scripting/lua/script_call.h"
 
 namespace sterna::scripting {
 
-/// Returns the result of the verb. For verbs whose models are cached, this is the model of an earlier identical call: same arguments by content, same names of
-/// inputs. The OpenCASCADE shape of the model is not cached: code that needs the shape runs the verb again, which is rare. Calls with functions, and models of
-/// deformed or foreign surfaces, are always recomputed.
+/// Returns the result of the verb. For verbs whose models are cached, this may be the model of an earlier identical call: arguments have the same content,
+/// inputs have the same names. The OpenCASCADE shape of the model is not cached: code that needs the shape runs the verb again, which is rare. Calls with
+/// functions, and models of deformed or foreign surfaces, are always recomputed.
 /// \throws what the verb throws
 ScriptValue cached_model(const ScriptVerb& verb, const ScriptCall& call);
 

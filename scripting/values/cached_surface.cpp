@@ -42,7 +42,7 @@ std::optional<ContentKey> surface_key_of(const PartTask& task, const RunContext&
 /// Writes the surface without inputs, which are those of the models, and without the model.
 void write_parts(ByteSink& sink, const SurfaceValue& surface) {
   const auto& [mesh, report, options, inputs, union_options, repair_options, wrap_options, remesh_options, recipe, mesh_report, smooth_angle, layers,
-               model_wall, parts, model_wall_key, changes, changed] = surface;  // all members: a new one does not compile
+               model_wall, parts, model_wall_key, changes, changed] = surface;  // lists all members, so that a new member does not compile until it is handled
   write_value(sink, mesh);
   write_value(sink, report);
   write_value(sink, recipe);
@@ -54,8 +54,8 @@ void write_parts(ByteSink& sink, const SurfaceValue& surface) {
   write_value(sink, changed);
   write_value(sink, model_wall->places());
   static_cast<void>(options), static_cast<void>(union_options), static_cast<void>(repair_options), static_cast<void>(wrap_options),
-      static_cast<void>(remesh_options);                         // surface_mesh has none
-  static_cast<void>(inputs), static_cast<void>(model_wall_key);  // known to the reader of the entry
+      static_cast<void>(remesh_options);                         // a surface from surface_mesh has none
+  static_cast<void>(inputs), static_cast<void>(model_wall_key);  // the reader of the entry knows them
 }
 
 SurfaceValue read_parts(ByteSource& source, const std::vector<ModelHandle>& models, const std::function<Model()>& all) {
@@ -105,7 +105,7 @@ SurfaceValue cached_surface(const std::vector<ModelHandle>& models, const Surfac
   std::optional<ContentKey> key =
       reuse.cache ? beside_reference(surface_key_of(models, asked, static_cast<bool>(size), context), reuse, context) : std::nullopt;
   if (key && reference && !reference->is_this())
-    key = KeyMaker("call").add(*key).add(reference->surface()).key();  // parts preferably start from those of the same call
+    key = KeyMaker("call").add(*key).add(reference->surface()).key();  // results depend on the call number, because parts prefer to start from the same call
   if (!reuse.cache || !key)
     return cached<SurfaceValue>(
         reuse, k_stage, {}, std::nullopt, context, [&] { return make(size); }, write_parts, std::function<SurfaceValue(ByteSource&)>());
@@ -122,7 +122,7 @@ SurfaceValue cached_surface(const std::vector<ModelHandle>& models, const Surfac
     return surface;
   };
   const auto make_here = [&](const SizeFunction& asked_size) {
-    found.reset();  // data of an entry that was not valid after all
+    found.reset();  // the entry was not valid after all
     return make(asked_size);
   };
   SurfaceValue surface = size ? cached_by_answers<SurfaceValue>(reuse, k_stage, what, key, size, context, make_here, write, read)

@@ -1,4 +1,4 @@
-// The surface mesh of models, taken from a cache if present.
+// Takes the surface mesh of models from a cache if present.
 #pragma once
 
 #include <functional>

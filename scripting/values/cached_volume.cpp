@@ -12,19 +12,19 @@
 namespace sterna::scripting {
 namespace {
 
-/// The engines' programs are built separately from this one.
+/// Adds the engines to a key, because their programs are built separately from this one.
 void add_engines(KeyMaker& maker, const volmesh::TetraOptions& options) {
   for (const char* name : {"sterna-tet-tetgen", "sterna-tet-hxt"}) {
     try {
       maker.add(hash_file(volmesh::find_helper(name, options.helper_folder)));
     } catch (const Error& error) {
       if (error.code() != ErrorCode::tetra_engine_missing) throw;
-      maker.add("none");  // the other engine may be usable
+      maker.add("none");  // without this engine the other one may be used
     }
   }
 }
 
-/// If a time or memory limit affected the result, another run may produce another mesh, so the result must not be shared.
+/// Returns false if a time or memory limit affected the result. Another run may then produce another mesh, so the result must not be shared.
 bool is_same_everywhere(const volmesh::FilledStage& filled) { return filled.tets.is_reproducible; }
 bool is_same_mesh_everywhere(const volmesh::VolumeMeshResult& result) { return result.is_reproducible; }
 
@@ -39,7 +39,7 @@ ContentKey part_envelope_key(const volmesh::PartEnvelopeTask& task, const RunCon
   return KeyMaker("envelope of a part").add(task.wall).add(sterna::options_of(named)).add(task.rules).add(task.smooth_angle).add(context.seed()).key();
 }
 
-/// Returns makers with the true position of the wall, and with envelopes from the cache where present, or started from a reference if there is one.
+/// Returns makers that know the true surface of the wall. Their envelopes come from the cache if present, or start from a reference if there is one.
 volmesh::Makers makers_of(const SurfaceValue& wall, const volmesh::MeshCase& options, const Reuse& reuse) {
   volmesh::Makers makers;
   if (wall.model_wall)
@@ -90,7 +90,7 @@ volmesh::FilledStage cached_tetrahedra(const SurfaceValue& wall, const volmesh::
         return volmesh::make_tetrahedra(wall.mesh, envelope, options, makers_of(wall, options, {}), context);
       },
       is_same_everywhere);
-  if (!is_made) filled.tets.engine_seconds = filled.tets.engine_peak_bytes = 0.0;  // measured in another run
+  if (!is_made) filled.tets.engine_seconds = filled.tets.engine_peak_bytes = 0.0;  // these values were measured in another run
   return filled;
 }
 
@@ -101,7 +101,7 @@ volmesh::VolumeMeshResult cached_finish(const SurfaceValue& wall, const volmesh:
   auto result = cached<volmesh::VolumeMeshResult>(
       reuse, "prisms", triangles_text(wall.mesh), key, context, [&] { return volmesh::finish_mesh(wall.mesh, filled, options, context); },
       is_same_mesh_everywhere);
-  result.tetra_engine_seconds = filled.tets.engine_seconds;  // independent of the run that joined the parts
+  result.tetra_engine_seconds = filled.tets.engine_seconds;  // does not depend on the run that joined the parts
   result.tetra_engine_peak_bytes = filled.tets.engine_peak_bytes;
   return result;
 }
@@ -136,7 +136,7 @@ volmesh::VolumeMeshResult cached_volume_mesh(const SurfaceValue& wall, const vol
         return make();
       },
       is_same_mesh_everywhere);
-  if (!is_made) result.tetra_engine_seconds = result.tetra_engine_peak_bytes = 0.0;  // measured in another run
+  if (!is_made) result.tetra_engine_seconds = result.tetra_engine_peak_bytes = 0.0;  // these values were measured in another run
   return result;
 }
 

@@ -15,7 +15,7 @@ struct CheckSettings {
   bool strict = false;
   std::string solvers = "automatic";
 
-  /// `limits`: gate_limits.h; `usual`: consumers if the solvers are automatic.
+  /// \p limits gate_limits.h; \p usual consumers if the solvers are automatic
   CheckOptions to_options(const GateTable& limits = {}, Consumers usual = {}, std::string_view option = "solvers") const {
     CheckOptions options;
     options.consumers = consumers_of_solvers(solvers, usual, option);

@@ -1,4 +1,4 @@
-// Kinds of solvers that a verdict applies to: by names of solvers, or by the formats of files.
+// Kinds of solvers to which a verdict applies. They are given by names of solvers, or by the formats of files.
 #pragma once
 
 #include <filesystem>
@@ -11,7 +11,7 @@
 namespace sterna::scripting {
 
 /// Returns the consumers of a list such as "su2,openfoam"; `usual` if the list is "automatic".
-/// \param option its name, for messages: "--for"
+/// \param option name of the option for messages: "--for"
 /// \throws Error(bad_argument) with the known names
 Consumers consumers_of_solvers(std::string_view list, Consumers usual, std::string_view option);
 /// Returns the names that such a list may contain: "su2, tau, edge, fun3d, node-centred, openfoam, ...".

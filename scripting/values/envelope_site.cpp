@@ -15,7 +15,7 @@ using volmesh::MeshingSite;
 
 std::unique_ptr<MeshingSite> envelope_site(const EnvelopeValue& value, const RunContext& context) {
   MeshCase options = volmesh::with_closed_fans(with_wall_facts(*value.wall, value.options), value.stage.closed);
-  // Classes depend on the wall alone, but the layer domain requires a first height: any value is valid.
+  // Classes depend on the wall alone. The layer domain nevertheless requires a first height, for which any value is valid.
   if (value.step == EnvelopeStep::classified && is_automatic(options.envelope.first_height)) options.envelope.first_height = 1.0;
   options.envelope.feature_angle = value.stage.feature_angle;
   return std::make_unique<MeshingSite>(value.wall->mesh, options, context, value.stage.closed.feet);

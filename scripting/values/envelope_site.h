@@ -1,4 +1,4 @@
-// An envelope whose steps are performed one at a time, on its wall.
+// Layer domain of an envelope whose steps are performed one at a time, on its wall.
 #pragma once
 
 #include <memory>
@@ -12,7 +12,7 @@ namespace sterna::scripting {
 /// Returns the layer domain of a value; the feature angle is the one used for its classification.
 std::unique_ptr<volmesh::MeshingSite> envelope_site(const EnvelopeValue& value, const RunContext& context);
 
-/// Does nothing for a finished envelope, which is verified later.
+/// Requires that the steps of an envelope are complete. Does nothing for a finished envelope, which is verified later.
 /// \throws Error(bad_argument) with the locations and the missing steps if an envelope is not valid and clear yet
 void require_ready(const EnvelopeValue& envelope, const volmesh::MeshCase& options, const RunContext& context);
 

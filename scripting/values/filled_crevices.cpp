@@ -10,7 +10,7 @@ namespace {
 
 constexpr std::size_t k_crevices_in_log = 10;
 
-/// Forgets what was known of the triangles before.
+/// Replaces the mesh, and drops the data that belong to its former triangles.
 void replace_mesh(SurfaceValue& surface, TriMesh mesh) {
   surface.mesh = std::move(mesh);
   surface.mesh_report.reset();

@@ -7,8 +7,8 @@
 
 namespace sterna::scripting {
 
-/// Returns the wall with filled crevices; its inputs, its rules for layers and the kinds of its patches are kept. The crevices are reported in the log, in the
-/// report's messages and in the changes. The surface is returned unchanged if there are none; this is a warning.
+/// Returns the wall with filled crevices. Its inputs, its rules for layers and the kinds of its patches are kept. The crevices are reported in the log, in the
+/// report's messages and in the changes. If there are none, the surface is returned unchanged, with a warning.
 /// \throws Error of volmesh::fill_crevices
 SurfaceValue filled_crevices(const SurfaceValue& wall, const volmesh::CreviceOptions& options, const RunContext& context);
 

@@ -1,4 +1,4 @@
-// flow{}, y_plus{}, boundary_layer{}: from flow conditions to the first height and the total height of layers; the same as strings on the command line.
+// flow{}, y_plus{} and boundary_layer{} convert flow conditions to the first height and the total height of layers. The command line has the same as strings.
 #pragma once
 
 #include <optional>
@@ -13,11 +13,11 @@
 namespace sterna::scripting {
 
 std::span<const ScriptVerb> flow_verbs();
-/// quantity.name: height, wall_distance, skin_friction, friction_velocity, thickness, and the known flow quantities.
+/// Reads quantity.name: height, wall_distance, skin_friction, friction_velocity, thickness, and the known flow quantities.
 extern const ScriptVerb k_quantity_field;
 
-/// Reads flow conditions from a verb's table: an entry among its items from number `first_item` on (flow{...}), or named numbers. Notes problems. Returns
-/// nothing if there is a problem. Reads the items of the table.
+/// Reads flow conditions from a verb's table. They are an entry among its items from number `first_item` on (flow{...}), or named numbers. Notes problems, and
+/// returns nothing if there is one. Reads the items of the table.
 std::optional<volmesh::FlowState> read_flow(TableReader& reader, std::size_t first_item);
 /// Returns the flow conditions that a table can name, without its other options. `conditions` must outlive the table.
 OptionTable flow_options(volmesh::FlowConditions& conditions);

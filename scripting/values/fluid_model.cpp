@@ -19,11 +19,11 @@
 namespace sterna::scripting {
 namespace {
 
-/// Fraction of the longest side: tolerance of the splines for deformed surfaces before a boolean, as in write_cad.
+/// Tolerance of the splines for deformed surfaces before a boolean, as a fraction of the longest side; the same as in write_cad.
 constexpr double k_refit_share = 1e-6;
-/// Fraction of a body's longest side: boxes from samples are too small by about a thousandth.
+/// Margin of a box as a fraction of a body's longest side: boxes from samples are too small by about a thousandth.
 constexpr double k_box_margin = 0.01;
-/// Fraction of a tunnel's longest side: corners within this distance of the plane of a face are in the plane.
+/// Corners within this distance of the plane of a face are in the plane; fraction of a tunnel's longest side.
 constexpr double k_flat_share = 1e-9;
 
 bool is_container(const Model& model, const ModelSolid& solid) {
@@ -31,7 +31,7 @@ bool is_container(const Model& model, const ModelSolid& solid) {
                                         [&](FaceId f) { return model.components[model.faces[f].component].kind == ComponentKind::tunnel; });
 }
 
-/// Solids of tunnels, and the others; nothing if there are sheets or loose faces.
+/// Solids of tunnels, and the other solids. There is no result if the model has sheets or loose faces.
 struct Solids {
   std::vector<Model> containers, bodies;
   bool is_all_closed = true;
@@ -56,7 +56,7 @@ std::string names_text(const std::vector<std::string>& names) {
   return text;
 }
 
-/// The planes of a convex container's faces: points in space and unit normals to the inside; empty if it has other faces or corners.
+/// A plane of a convex container: a point and the unit normal to the inside. planes_of() is empty if the container has other faces or corners.
 struct Plane {
   Point at;
   Vec3 inward;
@@ -106,8 +106,8 @@ bool boxes_meet(const Box& a, const Box& b) {
   return true;
 }
 
-/// Returns true if bounding boxes prove that no boolean is needed: one convex container with plane faces and inward normals, all other solids closed, inside
-/// the container and separate from each other.
+/// Returns true if bounding boxes prove that no boolean is needed. There must be one convex container with plane faces and inward normals, and all other solids
+/// must be closed, inside the container and separate from each other.
 bool are_bodies_apart(const Model& model) {
   const ModelSolid* container = nullptr;
   std::vector<Box> boxes;
@@ -189,7 +189,7 @@ ModelValue assemble_united(const std::vector<ModelHandle>& models, const RunCont
 
 ModelValue fluid_of(ModelValue all, const RunContext& context) {
   if (!has_container(all.model)) return all;
-  if (are_bodies_apart(all.model)) {  // the tunnel minus cavities: no face changes
+  if (are_bodies_apart(all.model)) {  // the fluid is the tunnel minus cavities, so no face changes
     all.report = "fluid: no body is close to the tunnel's faces or to another body; " + inside_text(names_of_bodies(all.model));
     context.info(all.report);
     const Solids solids = solids_of(all.model);
@@ -247,7 +247,8 @@ namespace {
 
 /// Reports asymmetry in the same way as half_of does for surfaces.
 void tell_asymmetry(const Model& model, const HalfModelOptions& options, const RunContext& context) {
-  constexpr double k_tolerance = 5e-5, k_clear = 4.0;  // relative to the longest side: distance of facets from the surface; their corners are on it
+  constexpr double k_tolerance = 5e-5, k_clear = 4.0;  // k_tolerance is the distance of facets from the surface (their corners are on it), relative to the
+                                                       // longest side; gaps above k_clear * k_tolerance are reported
   const surfmesh::ModelFacets facets = surfmesh::facets_of(model, {.tolerance = k_tolerance}, context);
   TriMesh drawn;
   drawn.patches.push_back({.name = "model"});

@@ -1,4 +1,4 @@
-// Models that belong together: assemblies, united where they touch, and the fluid around them in a wind tunnel.
+// Models that belong together: assemblies whose models are united where they touch, and the fluid around them in a wind tunnel.
 #pragma once
 
 #include <vector>
@@ -25,8 +25,8 @@ ModelValue fluid_of(ModelValue all, const RunContext& context);
 /// \throws Error of cad::half_model
 ModelValue half_of_model(const ModelValue& whole, const HalfModelOptions& options, const RunContext& context);
 
-/// Converts the geometry to the form that OpenCASCADE requires: deformed surfaces and curves become splines within 1e-6 of the longest side, which is reported
-/// in the log. Others are unchanged.
+/// Converts the geometry to the form that OpenCASCADE requires. Deformed surfaces and curves become splines within 1e-6 of the longest side, which is reported
+/// in the log; all others are unchanged.
 void refit_for_cad(Model& model, const RunContext& context);
 
 }  // namespace sterna::scripting

@@ -1,4 +1,4 @@
-// cellZones of OpenFOAM for the refinement regions of a mesh.
+// Makes cellZones of OpenFOAM for the refinement regions of a mesh.
 #pragma once
 
 #include <filesystem>
@@ -13,10 +13,11 @@
 
 namespace sterna::scripting {
 
-/// Returns, for each source with a volume, the cells whose centre lies in the source, "source_N_KIND" with N from 1 on: for momentum sources and for pictures.
+/// Returns a zone "source_N_KIND" (N from 1 on) for each source with a volume. It has the cells whose centre lies in the source. Used for momentum sources and
+/// for pictures.
 std::vector<io::FoamZone> zones_of_sources(const HybridMesh& mesh, const std::vector<volmesh::SizeSource>& sources);
 
-/// write_mesh_alone() for OpenFOAM, with the zones of the sources that the mesh was made with.
+/// Writes the mesh like write_mesh_alone() for OpenFOAM, with the zones of the sources that the mesh was made with.
 /// \throws as io::write_numbered_foam
 void write_zoned_foam(const MeshValue& mesh, const std::filesystem::path& path, Numbering numbering, const RunContext& context);
 

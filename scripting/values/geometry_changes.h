@@ -1,4 +1,4 @@
-// Comparisons of surfaces with their inputs: noted in SurfaceValue::changed for manifests, and reported as warnings.
+// Comparisons of surfaces with their inputs. They are noted in SurfaceValue::changed for manifests, and reported as warnings.
 #pragma once
 
 #include <string>

@@ -26,7 +26,7 @@ std::optional<std::vector<std::vector<double>>> rows_of(const ScriptValue& value
 /// Returns the numbers of a list: {1, 2, 3}.
 std::optional<std::vector<double>> numbers_of(const ScriptValue& value);
 
-/// Returns the named entry as a point {x, y, z}, if present. Notes a problem if the entry is no point.
+/// Returns the named entry as a point {x, y, z}, if there is one. Notes a problem if the entry is no point.
 std::optional<Vec3> read_point(TableReader& reader, const std::string& name);
 std::optional<std::array<double, 2>> read_pair(TableReader& reader, const std::string& name, std::string_view what);
 std::optional<std::vector<double>> read_numbers(TableReader& reader, const std::string& name);
@@ -40,8 +40,8 @@ struct ShapeEntry {
   ScriptValue value;  ///< the entry itself
   std::string where;  ///< "sources, entry 2", for messages
 };
-/// Returns the entries of the list `name` = { sphere{...}, box{...} }, or a single entry given alone; empty if the table has none. Notes problems; `usage` is
-/// an example of an entry.
+/// Returns the entries of the list `name` = { sphere{...}, box{...} }, or the only entry if it is given alone. Empty if the table has none. Notes problems; \p
+/// usage is an example of an entry
 std::vector<ShapeEntry> read_shapes(TableReader& reader, const std::string& name, std::string_view usage);
 
 /// Returns the file "name" beside the script or in the current folder, for verbs that take one file.
@@ -53,8 +53,8 @@ std::optional<PatchKind> read_patch_kind(const ScriptValue& value, const std::st
 /// Returns the model of a value: a model itself, or the model of a component. Null for any other value.
 ModelHandle model_of(const ScriptValue& value, const ScriptCall& call);
 
-/// Returns the rotation about the fixed axes through `about`: roll (starboard wing down), then pitch (nose up), then yaw (nose to starboard); x aft, y
-/// starboard, z up; radians.
+/// Returns the rotation about the fixed axes through `about`: first roll (starboard wing down), then pitch (nose up), then yaw (nose to starboard). The axes
+/// are x aft, y starboard, z up; angles are in radians.
 Transform attitude(const Point& about, double roll, double pitch, double yaw);
 
 /// Returns the reference data of a wing as a table for the script.

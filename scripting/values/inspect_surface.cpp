@@ -33,11 +33,11 @@ using volmesh::InspectRequest;
 using volmesh::Severity;
 using PlainJson = nlohmann::json;
 
-constexpr double k_joined = 0.3;     ///< progress after files are read and joined
+constexpr double k_joined = 0.3;     ///< progress after files have been read and joined
 constexpr double k_inspected = 0.9;  ///< progress after the inspection; the rest is the required preparation
 constexpr double k_percent = 100.0;
-constexpr double k_many_triangles = 1e6;          ///< above this number the cause is reported
-constexpr double k_read = 0.3, k_foretold = 0.4;  ///< progress for models: files read, triangles predicted
+constexpr double k_many_triangles = 1e6;          ///< above this number of triangles, the faces that cause it are reported
+constexpr double k_read = 0.3, k_foretold = 0.4;  ///< progress for models: after files have been read, and after triangles have been predicted
 
 FindingKind kind_of(ErrorCode code) {
   switch (code) {
@@ -61,7 +61,7 @@ Finding finding_of(const Error& error, const InspectRequest& request) {
   return finding;
 }
 
-/// Replaces the finding of the same kind in the report, if there is one, whose triangles are marked already.
+/// Replaces the finding of the same kind in the report. If there is such a finding, its triangles are marked already.
 void replace_finding(InspectReport& report, Finding finding) {
   const auto same = std::find_if(report.findings.begin(), report.findings.end(), [&](const Finding& other) { return other.kind == finding.kind; });
   if (same != report.findings.end()) *same = std::move(finding);
@@ -74,18 +74,18 @@ std::vector<std::string> names_of(std::span<const InputPath> files) {
   return names;
 }
 
-/// Returns the corner angle below which volume_mesh treats a triangle as a sliver, or would if this were enabled.
+/// Returns the corner angle below which volume_mesh treats a triangle as a sliver. If this is disabled, returns the angle that it would have.
 double needle_limit_of(const InspectRequest& request) {
   const double asked = request.volume.needles.split_needles;
   return asked > 0.0 ? asked : volmesh::NeedleOptions{}.split_needles;
 }
 
-/// Returns all triangles as given in the files, in metres; only coincident corners of STL are joined.
+/// Returns all triangles as given in the files, in metres. Only coincident corners of STL are joined.
 TriMesh triangles_of(const WallFiles& files) {
   TriMesh all;
   for (const SurfaceSoup& soup : files.soups) {
     const auto is_wrong = [&](const auto& t) { return std::ranges::any_of(t, [&](std::uint32_t v) { return v >= soup.points.size(); }); };
-    if (std::ranges::any_of(soup.triangles, is_wrong)) continue;  // reported by its finding
+    if (std::ranges::any_of(soup.triangles, is_wrong)) continue;  // the finding on this soup reports it
     TriMesh mesh = io::to_tri_mesh(soup);
     for (Point& p : mesh.points) p *= files.wall.options.unit;
     append(all, mesh);

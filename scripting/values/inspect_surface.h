@@ -1,4 +1,4 @@
-// The inspection of files and surfaces, and its reports: as text, as JSON, as a picture.
+// The inspection of files and surfaces, and its reports as text, as JSON, and as a picture.
 #pragma once
 
 #include <filesystem>
@@ -17,8 +17,8 @@ namespace sterna::scripting {
 /// The expected result of volume_mesh for a surface, and the steps required before.
 struct Inspection : volmesh::InspectReport {
   Preparation preparation;
-  std::optional<double> expected_triangles;  ///< number for the model's surface, predicted before meshing
-  std::optional<double> remeshed_triangles;  ///< number of new triangles if remesh is advised, predicted
+  std::optional<double> expected_triangles;  ///< predicted number of triangles of the model's surface
+  std::optional<double> remeshed_triangles;  ///< predicted number of new triangles, if remesh is advised
 };
 
 using SurfaceChange = std::function<SurfaceValue(const SurfaceValue&, const RunContext&)>;
@@ -26,7 +26,7 @@ using SurfaceChange = std::function<SurfaceValue(const SurfaceValue&, const RunC
 /// Reads the files and joins them as read_surface does. Errors of reading or joining become findings, and as much as possible is still inspected. The rules of
 /// manifests beside the files come before those of the request.
 /// \throws Error of io (no such file, no such format), cancelled
-/// \param cut if given: change made to the surface before the inspection (half)
+/// \param cut change of the surface before the inspection (half); may be empty
 Inspection inspect_files(std::span<const InputPath> files, const surfmesh::StitchOptions& options, volmesh::InspectRequest request, const RunContext& context,
                          const SurfaceChange& cut = {});
 /// Meshes the models' faces as mesh_model_files does, and inspects that surface. If meshing fails, inspects their triangles including the crossings.
@@ -41,8 +41,8 @@ std::string text_of(const Inspection& report, const std::string& name);
 /// Returns the same report as JSON, schema "sterna-inspect-1".
 std::string json_of(const Inspection& report, const std::string& name);
 
-/// Writes "-o trouble.vtu": the surface with all fields; "-o trouble.png": a picture of the surface, coloured by the most severe finding, with the worst
-/// location of each finding marked.
+/// Writes a picture of the inspection. For "-o trouble.vtu" this is the surface with all fields. For "-o trouble.png" it is a picture of the surface, coloured
+/// by the most severe finding, with the worst location of each finding marked.
 /// \throws Error(unsupported_format) for another extension, Error(write_failed)
 void write_inspection(const volmesh::InspectReport& report, const std::filesystem::path& path, const RunContext& context);
 /// Checks the output path before the work starts.

@@ -14,7 +14,7 @@
 namespace sterna::scripting {
 namespace {
 
-/// Returns the key of the file: only this version reads it, because cases of another version are run again anyway.
+/// Returns the key of the file. Only this version can read it, because cases of another version are run again anyway.
 ContentKey file_key() { return KeyMaker("kept by the reference case of a series").add(STERNA_VERSION).key(); }
 
 template <class T>
@@ -102,7 +102,8 @@ void ReferenceUse::keep(KeptEnvelope envelope) {
 void ReferenceUse::note_carried(const TriMesh& mesh, const std::string& name) { carried_.push_back({triangles_key(mesh), name, false}); }
 
 CarriedPart* ReferenceUse::carried(const ContentKey& triangles) {
-  for (const bool is_told : {false, true})  // mirror images may have the same triangles: each is returned once
+  for (const bool is_told : {false, true})  // parts without a reported envelope first, so that each of several mirror images with the same triangles is
+                                            // returned once
     for (CarriedPart& part : carried_)
       if (part.triangles == triangles && part.has_envelope == is_told) return &part;
   return nullptr;

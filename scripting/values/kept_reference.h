@@ -1,5 +1,5 @@
-// Data that the reference case of a series stores in its folder for the other cases: triangles and envelopes of parts. No data depends on the order of earlier
-// runs.
+// Data that the reference case of a series stores in its folder for the other cases: triangles and envelopes of parts. None of them depend on the order of
+// earlier runs.
 #pragma once
 
 #include <cstddef>
@@ -28,16 +28,16 @@ struct KeptPart {
   std::uint64_t call = 0;  ///< number of the call of surface_mesh in the case, from 0
   std::string name;        ///< name of its first component
   surfmesh::StructuredMesh mesh;
-  ContentKey geometry;  ///< key of the points of its vertices on the model (carried_points): equal if the geometry is equal
+  ContentKey geometry;  ///< key of the points of its vertices on the model (carried_points); equal keys mean equal geometry
   surfmesh::SurfaceMeshOptions options;
   std::vector<surfmesh::PatchSurfaceOptions> patches;
-  bool has_sizes_by_place = false;  ///< sources or a size function apply
+  bool has_sizes_by_place = false;  ///< sources or a size function apply to the part
 };
 
 /// The envelope of a part alone, or of a whole wall.
 struct KeptEnvelope {
-  ContentKey wall;                   ///< connectivity_of() its wall
-  volmesh::EnvelopeOptions options;  ///< as given by the user, without values derived from the wall
+  ContentKey wall;                   ///< connectivity_of() the envelope's wall
+  volmesh::EnvelopeOptions options;  ///< options of the user, without values derived from the wall
   volmesh::StartingEnvelope start;
 };
 
@@ -53,8 +53,8 @@ ContentKey triangles_key(const TriMesh& mesh);
 /// Returns the key of the triangles with their patches, names and kinds.
 ContentKey connectivity_of(const TriMesh& mesh);
 
-/// The link between a running case and the reference of its series: the reference itself collects data, other cases read them. Lives as long as the case; used
-/// by one thread.
+/// The link between a running case and the reference of its series. The reference itself collects data; other cases read them. The object lives as long as the
+/// case and is used by one thread.
 class ReferenceUse {
  public:
   ReferenceUse(std::string name, std::filesystem::path file, bool is_this) : name_(std::move(name)), file_(std::move(file)), is_this_(is_this) {}
@@ -62,8 +62,8 @@ class ReferenceUse {
   const std::string& name() const { return name_; }  ///< name of the reference case
   bool is_this() const { return is_this_; }          ///< the running case is the reference
 
-  /// Returns the key of the reference data that the results of this case depend on, beside their own inputs: the content of the kept file. In the reference
-  /// itself the key is a constant.
+  /// Returns the key of the reference data on which the results of this case depend, in addition to the case's own inputs. This is the content of the kept
+  /// file. In the reference itself the key is a constant.
   /// \throws Error(file_not_found, file_malformed) if the file is missing or damaged
   ContentKey key(const RunContext& context);
   const std::vector<KeptPart>& parts(const RunContext& context);          ///< \throws as key()
@@ -76,11 +76,12 @@ class ReferenceUse {
   void keep(KeptPart part);
   void keep(KeptEnvelope envelope);  ///< once for each wall and options
   void note_carried(const TriMesh& mesh, const std::string& name);
-  /// Returns the part with these triangles that took over the reference's, preferably one without a reported envelope outcome; null: there is none.
+  /// Returns a part with these triangles that took over the reference's triangles, preferably one whose envelope outcome has not been reported. Null if there
+  /// is none.
   CarriedPart* carried(const ContentKey& triangles);
   std::vector<CarriedPart>& all_carried() { return carried_; }
 
-  /// Reports to the log and to the list of what the case reused.
+  /// Reports a line to the log, and adds it to the list of what the case reused.
   void tell(const std::string& line, const Reuse& reuse, const RunContext& context);
 
   /// Writes the kept file, atomically.

@@ -1,4 +1,4 @@
-// Members of the data that a reference case stores, for archive.h: as stored_types.h.
+// Members of the data that a reference case stores, for archive.h, in the same form as in stored_types.h.
 #pragma once
 
 #include "scripting/values/kept_reference.h"

@@ -1,4 +1,4 @@
-// The outcome of the layer as JSON text: the same for manifest and statistics.
+// The outcome of the layer as JSON text, which is the same for manifest and statistics.
 #pragma once
 
 #include <string>
@@ -7,12 +7,12 @@
 
 namespace sterna::scripting {
 
-/// Returns an object: coverage in all and per patch (shares of area at full height along the normal, and where the geometry permits it, compressed, collapsed;
-/// lost area by reason), every collapsed vertex, the most compressed ones, warnings.
+/// Returns a JSON object: coverage in total and per patch, every collapsed vertex, the most compressed vertices, and warnings. Coverage has the shares of the
+/// area at full height along the normal, at the height that the geometry permits, compressed and collapsed, and the lost area by reason.
 std::string layer_json(const volmesh::LayerReport& layer);
-/// Returns an object: sliver triangles of the wall, edges flipped, triangles before and after, remaining slivers.
+/// Returns a JSON object: number of sliver triangles of the wall, of edges flipped, of triangles before and after, and of remaining slivers.
 std::string needles_json(const volmesh::NeedleReport& needles);
-/// Returns an object: tested properties, failures (none), the worst elements with location.
+/// Returns a JSON object: tested properties, failures (none), and the worst elements with their locations.
 std::string certificate_json(const volmesh::EnvelopeCertificate& certificate);
 
 }  // namespace sterna::scripting

@@ -64,7 +64,7 @@ ScriptValue make_family(const ScriptCall& call) {
   TableReader reader(table, call.attempted());
   reader.read_options(sterna::options_of(options));
   reader.finish();
-  // A family with one member is the mesh described by the options, not a coarse one.
+  // A family with one member is the mesh described by the options. It is not a coarse member.
   if (!reader.is_given("family", "medium")) options.medium = std::min(options.medium, options.levels);
   auto members = std::make_shared<ScriptTable>();
   for (int level = 1; level <= options.levels; ++level) {

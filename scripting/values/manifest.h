@@ -1,4 +1,4 @@
-// The record beside every mesh: its inputs, options and program version. No wall-clock, no thread count: same input, same bytes.
+// The record beside every mesh: its inputs, options and program version. It has no wall-clock time and no thread count, so the same input gives the same bytes.
 #pragma once
 
 #include <filesystem>

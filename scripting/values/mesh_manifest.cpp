@@ -28,7 +28,7 @@ constexpr std::array k_kinds = {PatchKind::wall,    PatchKind::slip,     PatchKi
       {.code = ErrorCode::file_malformed, .attempted = "reading " + file.name + ".json", .problem = problem, .hint = "delete it, or write the mesh again"});
 }
 
-/// Returns a name in a spelling common to all formats: formats replace unsupported characters by other letters.
+/// Returns a name in a spelling common to all formats, because formats replace unsupported characters by other letters.
 std::string plain_name(std::string_view name) {
   std::string text;
   for (const char c : name) text += std::isalnum(static_cast<unsigned char>(c)) ? c : '_';
@@ -59,7 +59,7 @@ class KnownPatches {
 
  private:
   std::map<std::string, PatchKind> exact_;
-  std::map<std::string, std::vector<PatchKind>> plain_;  ///< patches whose names become identical
+  std::map<std::string, std::vector<PatchKind>> plain_;  ///< patches by common spelling; several if their names become identical
 };
 
 std::optional<PatchId> patch_named(const HybridMesh& mesh, const std::string& name) {
@@ -115,7 +115,7 @@ void add_periodic_sides(HybridMesh& mesh, const Json& json, const InputPath& fil
   }
 }
 
-/// Sets the requested smallest first height and largest growth, if they are numbers: for a member of a family h0/f and r^(1/f) (layer_choice.h).
+/// Sets the requested smallest first height and largest growth, if they are numbers. For a member of a family these are h0/f and r^(1/f) (layer_choice.h).
 void add_request(HybridMesh& mesh, const Json& json) {
   if (mesh.request.is_known() || json.contains("first_heights")) return;
   const auto number = [](const Json& from, const char* place) -> std::optional<double> {
@@ -152,7 +152,7 @@ bool is_ours(const Json& json) { return json.value("schema", Json()) == "sterna-
 
 std::optional<std::string> fitting_manifest(const InputPath& file, const std::string& hash, const RunContext& context) {
   const std::optional<Json> json = read_json(manifest_path(file.path));
-  if (!json || !is_ours(*json)) return std::nullopt;  // none, or a file of another program
+  if (!json || !is_ours(*json)) return std::nullopt;  // there is none, or it is a file of another program
   if (json->value("output_xxh3_128", Json()) == hash) return json->dump();
   context.warn(
       file.name + ".json is " +
@@ -165,7 +165,7 @@ void complete_from_manifest(MeshValue& value, const InputPath& file, const std::
   if (io::format_of(file.path).name == "sterna") return;  // contains all these data itself
   const std::optional<std::string> text = fitting_manifest(file, hash, context);
   const Json json = text ? Json::parse(*text) : Json();
-  if (!text || json.value("schema", Json()) != "sterna-manifest-1") {  // none, or of a surface
+  if (!text || json.value("schema", Json()) != "sterna-manifest-1") {  // there is none, or it is that of a surface
     value.unknown_kinds = unknown_kinds(value.mesh, nullptr, file);
     return;
   }

@@ -1,4 +1,4 @@
-// Reading of the manifest beside a volume mesh: formats such as SU2 hold names of patches only; the kinds of the patches are in the manifest.
+// Reads the manifest beside a volume mesh. Formats such as SU2 hold only names of patches; the kinds of the patches are in the manifest.
 #pragma once
 
 #include <optional>

@@ -25,7 +25,7 @@ SpaceSizes in_frame(const SpaceSizes& sizes, const Transform& placement) {
   return own;
 }
 
-/// Returns the rules that apply to a part, and the rules that apply to no part, which mesh_model rejects.
+/// Returns the rules that apply to a part, and those that apply to no part. mesh_model rejects the latter.
 std::vector<surfmesh::PatchSurfaceOptions> rules_for(const Model& part, const Model& all, const std::vector<surfmesh::PatchSurfaceOptions>& rules) {
   const auto concerns = [](const Model& model, const surfmesh::PatchSurfaceOptions& rule) {
     return std::any_of(model.faces.begin(), model.faces.end(), [&](const ModelFace& face) { return matches_glob(face.name, rule.names); });
@@ -40,7 +40,7 @@ bool has_face(const Model& model, const std::string& name) {
   return std::any_of(model.faces.begin(), model.faces.end(), [&](const ModelFace& face) { return face.name == name; });
 }
 
-/// Returns true if for each pair both sides are faces of one part only, or of no part, which mesh_model rejects.
+/// Returns true if both sides of each pair are faces of the same part, or are in no part. mesh_model rejects the latter.
 bool are_pairs_within_parts(const ModelValue& value, const std::vector<ModelPart>& parts, const std::vector<surfmesh::SidePair>& pairs) {
   for (std::size_t i = 0; i < parts.size(); ++i) {
     const Model own = own_model(value, parts, i);
@@ -50,7 +50,7 @@ bool are_pairs_within_parts(const ModelValue& value, const std::vector<ModelPart
   return true;
 }
 
-/// Returns the pairs of a part, and those of no part.
+/// Returns the pairs of a part, and the pairs that belong to no part.
 std::string pairs_for(const Model& part, const Model& all, std::vector<surfmesh::SidePair> pairs) {
   std::erase_if(pairs, [&](const surfmesh::SidePair& pair) { return has_face(all, pair[0]) && has_face(all, pair[1]) && !has_face(part, pair[0]); });
   return surfmesh::side_pairs_text(pairs);

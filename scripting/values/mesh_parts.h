@@ -1,4 +1,5 @@
-// The surface of a model part by part: each part is meshed in its own frame and moved to its location, so that a part has the same triangles at every attitude.
+// Meshes the surface of a model part by part. Each part is meshed in its own frame and moved to its location, so that a part has the same triangles at every
+// attitude.
 #pragma once
 
 #include <functional>
@@ -28,18 +29,18 @@ struct PartTask {
 /// \throws Error of surfmesh::mesh_model
 surfmesh::SurfaceMesh mesh_part(const PartTask& task, const RunContext& context);
 
-/// Mesher of parts: mesh_part(), or a mesher with cached parts.
+/// Mesher of a part: mesh_part(), or a function that uses cached parts.
 using PartMesher = std::function<surfmesh::SurfaceMesh(const PartTask&, const RunContext&)>;
 
 struct PartsMesh {
   surfmesh::SurfaceMesh mesh;              ///< mesh of value.model
-  std::vector<volmesh::PlacedPart> parts;  ///< empty if the model was meshed at once at its location
+  std::vector<volmesh::PlacedPart> parts;  ///< empty if the whole model was meshed at its location
 };
 
 /// Meshes the parts of a model and joins them. A model of one part that was never moved is meshed as it is. Sizes by location (sources, functions) are
-/// evaluated at the actual location of the parts. All parts are meshed at once, at their locations, which the log reports, in these cases: with gap_cells for
+/// evaluated at the actual location of the parts. In three cases all parts are meshed together at their locations, which the log reports: with gap_cells for
 /// several parts, because gaps between the parts impose sizes; if periodic sides belong to different parts; and if triangles of two parts cross that finer
-/// triangles would separate. `sizes` are in space. \p in_place meshes such a model, as one part at its location; empty: mesh_part().
+/// triangles would separate. `sizes` are in space. \p in_place meshes such a model, as one part at its location; empty: mesh_part()
 /// \throws Error of surfmesh::mesh_model, join_parts
 PartsMesh mesh_parts(const ModelValue& value, const SurfaceRecipe& recipe, const surfmesh::SpaceSizes& sizes, const PartMesher& mesher,
                      const RunContext& context, const PartMesher& in_place = {});

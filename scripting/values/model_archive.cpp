@@ -58,7 +58,7 @@ bool ModelWriter::is_known(const std::shared_ptr<const T>& object) {
   return !object || place != known_.end();
 }
 
-// An object gets its number, among those of its class, after it is completely written: this is the order of reading.
+// An object gets its number among those of its class when it is completely written, because this is the order of reading.
 void ModelWriter::curve(const CurvePtr& curve) {
   if (is_known(curve)) return;
   content(*curve);
@@ -137,7 +137,7 @@ void ModelWriter::content(const Surface& of) {
 }
 
 void ModelWriter::model(const Model& model) {
-  const auto& [components, corners, edges, faces, solids, source_unit, shape] = model;  // all members: a new one does not compile
+  const auto& [components, corners, edges, faces, solids, source_unit, shape] = model;  // lists all members, so that a new one does not compile until handled
   write_all(sink_, components, corners, solids, source_unit, shape != nullptr);
   write_value(sink_, static_cast<std::uint64_t>(edges.size()));
   for (const ModelEdge& edge : edges) {

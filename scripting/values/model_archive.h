@@ -1,5 +1,5 @@
-// Exact geometry as bytes: a model's columns and the curves and surfaces behind them. Shared objects are shared again after reading, and geometry read back
-// evaluates to the same bits.
+// Exact geometry as bytes: a model's columns, and the curves and surfaces to which they refer. Shared objects are shared again after reading, and geometry that
+// is read back evaluates to the same bits.
 #pragma once
 
 #include <cstdint>
@@ -14,7 +14,7 @@
 
 namespace sterna::scripting {
 
-/// Thrown for a curve or surface of a kind that cannot be serialised: a deformed one, or a wrapper around OpenCASCADE's.
+/// Thrown for a curve or surface that cannot be serialised: a deformed one, or a wrapper around a curve or surface of OpenCASCADE.
 struct NotKept {
   std::string kind;
 };
@@ -23,7 +23,7 @@ struct NotKept {
 class ModelWriter {
  public:
   explicit ModelWriter(ByteSink& sink) : sink_(sink) {}
-  /// Writes the model; of its CAD shape only a flag that it exists.
+  /// Writes the model. The CAD shape of the model is not written, only a flag that it exists.
   /// \throws NotKept
   void model(const Model& model);
   void shared(const std::shared_ptr<const Model>& model);

@@ -58,7 +58,7 @@ bool is_same_solid(const Model& a, const Model& b) {
 Model slice(const Model& model, const std::vector<ModelPart>& parts, std::size_t i) {
   Begin begin;
   for (std::size_t k = 0; k < i; ++k) begin.add(*parts[k].own);
-  Model part = *parts[i].own;  // its numbers; the following data are replaced by their current values
+  Model part = *parts[i].own;  // keeps the numbers of the part; the following data are replaced by their current values
   for (const ComponentId c : part.components.ids()) part.components[c] = model.components[shifted(c, begin.components)];
   for (const CornerId c : part.corners.ids()) part.corners[c] = model.corners[shifted(c, begin.corners)];
   for (const EdgeId e : part.edges.ids()) {
@@ -116,7 +116,7 @@ void move_parts(const Transform& motion, ModelValue& value) {
 }
 
 void mirror_parts(const Point& at, const Vec3& normal, ModelValue& value) {
-  const Transform image = mirroring(at, normal);  // its own inverse
+  const Transform image = mirroring(at, normal);  // the mirroring is its own inverse
   value.parts = parts_of(value);
   for (ModelPart& part : value.parts) {
     part.own = std::make_shared<const Model>(mirrored(*part.own, at, normal));
@@ -165,7 +165,7 @@ void take_solids(const Model& looked_at, const Model& changed, ModelValue& value
     is_any_kept = true;
     i += found->size();
   }
-  if (!is_any_kept) {  // as made by the boolean, including the order of its faces
+  if (!is_any_kept) {  // the model is as made by the boolean, including the order of its faces
     value.model = changed;
     value.parts.clear();
     return;

@@ -1,5 +1,5 @@
-// Parts of models: geometry that was read or made together and has since been moved and turned only. Parts are meshed in their own frame and then moved, so
-// that the same part has the same triangles, whatever its attitude and its surroundings.
+// Parts of models. A part is geometry that was read or made together and has since only been moved and turned. Parts are meshed in their own frame and then
+// moved, so that the same part has the same triangles, whatever its attitude and its surroundings.
 #pragma once
 
 #include <cstddef>
@@ -23,7 +23,8 @@ struct ModelPart {
   bool is_in_place() const { return placement == Transform{}; }
 };
 
-/// Returns the parts of a model, in the order of its components, corners, edges, faces and solids; one part, at its location, if no parts are recorded.
+/// Returns the parts of a model, in the order of its components, corners, edges, faces and solids. If no parts are recorded, the model is one part, at its
+/// location.
 std::vector<ModelPart> parts_of(const ModelValue& value);
 
 /// Returns part `i` in its own frame, with the current names, roles and kinds of the model's faces.
@@ -37,7 +38,7 @@ void mirror_parts(const Point& at, const Vec3& normal, ModelValue& value);
 
 /// Replaces the model of `value` by the solids of `changed`, which a boolean made from those of `looked_at` (the model of `value`, or its replacement for
 /// OpenCASCADE). Solids that the boolean left unchanged stay the same parts, with the surfaces that `value` had. Consecutive changed solids form one part, at
-/// their location; if all solids are changed, no parts are recorded any more. Order: that of `changed`.
+/// their location. If all solids are changed, no parts are recorded any more. The order is that of `changed`.
 /// \pre all faces of both are of solids
 void take_solids(const Model& looked_at, const Model& changed, ModelValue& value);
 

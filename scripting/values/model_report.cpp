@@ -1,4 +1,4 @@
-// Boxes, areas and volumes of models by part, open edges, and the same as text.
+// Boxes, areas and volumes of models by part, and open edges; all of them also as text.
 #include <fmt/format.h>
 
 #include <algorithm>
@@ -11,7 +11,7 @@
 namespace sterna::scripting {
 namespace {
 
-/// Samples along each direction of a face, and along each edge, for boxes.
+/// Number of samples in each direction of a face, and along each edge, for boxes.
 constexpr int k_box_samples = 12;
 
 /// Returns the parameter box of the outer border of a face.
@@ -172,7 +172,7 @@ std::string measures_text(const ModelReport& measures) {
 
 namespace {
 
-/// Returns true if the whole model lies in one plane of constant x, y or z: then its boundary does not indicate symmetry.
+/// Returns true if the whole model lies in one plane of constant x, y or z. Its boundary then does not indicate symmetry.
 bool is_flat_model(const Model& model) {
   constexpr double k_flat_share = 1e-6;  // relative to the longest side
   const Box box = box_of(model);

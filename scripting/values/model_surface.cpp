@@ -83,7 +83,7 @@ namespace {
 /// Number of open edges and absorbed parts in the log; the report contains all.
 constexpr std::size_t k_listed = 10;
 
-/// Open edges that lie in one plane x, y or z = constant: the open boundary of a half model.
+/// Open edges that lie in one plane x, y or z = constant, such as the open boundary of a half model.
 struct OpenPlane {
   std::size_t axis = 0;
   double at = 0.0;      ///< m
@@ -119,19 +119,20 @@ std::vector<OpenPlane> open_planes(std::vector<OpenEdge>& open) {
     planes.push_back(longest);
   }
 }
-// Fractions of the progress of mesh_model_files.
+// Progress at the ends of the steps of mesh_model_files.
 constexpr double k_model_file_end = 0.3;
 constexpr double k_unite_end = 0.5;
-constexpr double k_first_try_end = 0.6;  ///< for parts that have to be united
+constexpr double k_first_try_end = 0.6;  ///< progress after a first try, for parts that have to be united
 constexpr double k_second_unite_end = 0.8;
 
 bool is_description(const std::filesystem::path& path) { return path.extension() == ".smx" || path.extension() == ".xml"; }
 
-/// sumo's default normal angle: the value in files that do not change it.
+/// sumo's default normal angle; files that do not change it have this value
 constexpr double k_sumo_angle = 30.0 * std::numbers::pi / 180.0;
 constexpr double k_same_angle = 1e-3;
 
-/// Returns the triangle settings of components in an .smx file, unless sumo derived them itself, for components with faces of their name.
+/// Returns rules with the triangle settings of components in an .smx file, except settings that sumo derived itself. There are rules only for components with
+/// faces of their name.
 std::vector<surfmesh::PatchSurfaceOptions> rules_of(const Aircraft& aircraft, const Model& model) {
   std::vector<surfmesh::PatchSurfaceOptions> rules;
   const auto add = [&](const std::string& name, const std::optional<MeshCriterion>& criterion) {
@@ -153,12 +154,12 @@ std::vector<surfmesh::PatchSurfaceOptions> rules_of(const Aircraft& aircraft, co
   return rules;
 }
 
-/// The user's rules win over those of files.
+/// Puts rules of files before the user's rules, so that the user's rules win.
 void put_first(std::vector<surfmesh::PatchSurfaceOptions> rules, SurfaceRecipe& recipe) {
   recipe.patches.insert(recipe.patches.begin(), rules.begin(), rules.end());
 }
 
-/// Returns the rules that match the name of a face: a boolean may have removed all faces of other rules.
+/// Returns the rules that match the name of a face. Others are left out, because a boolean may have removed all their faces.
 std::vector<surfmesh::PatchSurfaceOptions> present(std::vector<surfmesh::PatchSurfaceOptions> rules, const Model& model) {
   std::erase_if(rules, [&](const surfmesh::PatchSurfaceOptions& rule) {
     return std::none_of(model.faces.begin(), model.faces.end(), [&](const ModelFace& face) { return matches_glob(face.name, rule.names); });
@@ -184,7 +185,7 @@ std::string indented(std::string text) {
   return "  " + text;
 }
 
-/// Warns about lengths outside the range of aircraft, rotors, cars or wind-tunnel models: mostly millimetres taken as metres.
+/// Warns about lengths outside the range of aircraft, rotors, cars or wind-tunnel models: most of these are millimetres taken as metres.
 void doubt_size(const Model& model, const RunContext& context) {
   constexpr double k_smallest = 1e-3, k_largest = 200.0;  // m
   const double size = box_of(model).longest_side();
@@ -195,8 +196,7 @@ void doubt_size(const Model& model, const RunContext& context) {
                   size));
 }
 
-/// Meshes the models. Closed parts that intersect or touch each other, as in CAD files of one aircraft, are united where their triangles cross, which is
-/// reported.
+/// Meshes the models. Closed parts that intersect or touch each other, as in CAD files of one aircraft, are united if their triangles cross. This is reported.
 SurfaceValue mesh_or_unite(const std::vector<ModelHandle>& models, const SurfaceRecipe& recipe, const RunContext& context, const Reuse& reuse) {
   std::size_t n_solids = 0;
   bool is_closed = true;
@@ -357,7 +357,7 @@ SurfaceValue mesh_models(const std::vector<ModelHandle>& models, const SurfaceRe
                          const RunContext& context, const Reuse& reuse) {
   const StageTimer timer(context, "surface_mesh");
   const auto make = [&](const std::function<double(const Point&)>& asked_size) { return mesh_anew(models, asked, asked_size, context, reuse); };
-  // Runs in the thread that first needs the model, therefore without additional threads.
+  // This runs in the thread that first needs the model, and therefore uses no additional threads.
   const auto all = [models, stop = context.stop_token(), seed = context.seed()] {
     const RunContext quiet({.threads = 1, .seed = seed, .stop = stop});
     return fluid_of(assemble(models, quiet), quiet).model;

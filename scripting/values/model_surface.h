@@ -17,16 +17,16 @@
 
 namespace sterna::scripting {
 
-/// Meshes the models, side by side if there are several. The log reports the result: triangles, patches, closed or open and where, the worst angle with its
-/// face, absorbed parts, crossings (a warning). Patches have the faces' names. Triangle settings of components in .smx files (maxlen, minlen, maxphi other than
-/// sumo's 30 degrees, lerfactor, terfactor; not where defaults="true") are rules before the recipe's. `size`: lengths of edges by location, called by this
-/// thread alone.
+/// Meshes the models, side by side if there are several. The log reports the result: triangles, patches, if the surface is closed or where it is open, the
+/// worst angle with its face, absorbed parts, and crossings (as a warning). Patches have the faces' names. Triangle settings of components in .smx files
+/// (maxlen, minlen, maxphi other than sumo's 30 degrees, lerfactor, terfactor) are rules that come before the recipe's, unless they have defaults="true".
+/// `size`: lengths of edges by location, called by this thread only.
 /// \throws Error of surfmesh::mesh_model, also Error(bad_argument) for a source that volmesh::problem_of rejects
 SurfaceValue mesh_models(const std::vector<ModelHandle>& models, const SurfaceRecipe& recipe, const std::function<double(const Point&)>& size,
                          const RunContext& context, const Reuse& reuse = {});
 
 /// Reads files of models and meshes their surface. Components of .smx and CPACS files are united first; CAD is unchanged. `reading` applies to CAD.
-/// \p periodic: pairs of sides of the volume; those that are faces of the models go into the recipe.
+/// \p periodic: pairs of sides of the volume; pairs of faces of the models go into the recipe
 /// \throws Error of read_model, unite_solids, mesh_models; bad_argument for a file that is no model
 SurfaceValue mesh_model_files(std::span<const InputPath> files, const ReadCadOptions& reading, const SurfaceRecipe& recipe, const RunContext& context,
                               const Reuse& reuse = {}, std::span<const volmesh::PeriodicNames> periodic = {});
@@ -54,15 +54,16 @@ std::string surface_mesh_text(const Model& model, const SurfaceValue& surface);
 /// \throws Error(bad_argument) for a source that volmesh::problem_of rejects
 surfmesh::SpaceSizes space_sizes(const SurfaceRecipe& recipe, const std::function<double(const Point&)>& size);
 
-/// Returns the same options, with those of bands in separate stages: leading_edge = { chordwise = 0.004 } is leading_edge_chordwise.
+/// Returns the same options, with those of bands in separate stages: leading_edge = { chordwise = 0.004 } stands for leading_edge_chordwise.
 OptionTable with_edge_tables(OptionTable table);
 /// Returns the options of one entry of patches = { ["wing*"] = { max_edge = 0.1 } }. `rule` must outlive the table.
 OptionTable patch_rule_options(surfmesh::PatchSurfaceOptions& rule);
-/// Returns a list of objects with the options that each rule sets, for manifests; and the reverse.
+/// patch_rules_json returns a list of objects with the options that each rule sets, for manifests; the second function reads such a list.
 /// \throws Error(file_malformed, bad_argument)
 std::string patch_rules_json(const std::vector<surfmesh::PatchSurfaceOptions>& rules);
 std::vector<surfmesh::PatchSurfaceOptions> patch_rules_of_json(const std::string& text);
-/// Returns the sources of a size field as a JSON list, for manifests; samples by their number only. Empty: there are no sources and no function.
+/// Returns the sources of a size field as a JSON list, for manifests. Samples are given only by their number. Empty if there are neither sources nor a
+/// function.
 std::string sources_text(const std::vector<volmesh::SizeSource>& sources, bool has_function);
 
 }  // namespace sterna::scripting

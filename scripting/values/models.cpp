@@ -36,7 +36,7 @@ ModelValue value_of(AircraftReading reading, const InputPath& file, const RunCon
     value.model = make_components(reading.aircraft, context);
   } catch (const Error& error) {
     if (error.code() != ErrorCode::bad_argument) throw;
-    ErrorInfo info = error.info();  // a defect in a component's description is a defect of the file
+    ErrorInfo info = error.info();  // a defect in the description of a component is a defect of the file
     info.code = ErrorCode::file_malformed;
     info.attempted = file.name + ": " + info.attempted;
     throw Error(std::move(info));
@@ -88,7 +88,7 @@ ModelValue deflected_model(const ModelValue& value, const std::vector<ControlSet
 
 namespace {
 
-/// Files of components (sumo, CPACS) are data in metres: options of reading CAD have no effect on them.
+/// Rejects options of reading CAD for files of components (sumo, CPACS). These are data in metres, on which the options have no effect.
 void refuse_cad_options(const InputPath& file, ReadCadOptions options) {
   for (const Option& option : sterna::options_of(options)) {
     const OptionValue value = option.get();

@@ -1,4 +1,4 @@
-// Models (exact geometry) as values of scripts and commands: read, described, measured, selected, written.
+// Models (exact geometry) as values of scripts and commands. They can be read, described, measured, selected and written.
 #pragma once
 
 #include <filesystem>
@@ -25,16 +25,16 @@ namespace sterna::scripting {
 /// A model with its origin.
 struct ModelValue {
   Model model;
-  std::optional<Aircraft> description;  ///< components as data, consistent with the model's position and shape
-  std::string without_description;      ///< reason why there is none: "rotate", "read from a.step"
+  std::optional<Aircraft> description;  ///< components as data; they agree with the model's position and shape
+  std::string without_description;      ///< reason why there is no description: "rotate", "read from a.step"
   bool is_as_described = false;         ///< the model, read from a file, is exactly make_components(description)
   std::vector<InputFile> inputs;
   std::string report;  ///< lines about how the model was read or made; may be empty
   std::vector<surfmesh::PatchSurfaceOptions> sizes =
       {};  ///< size rules by face name, as given to the verb that made the model; they come before the user's rules if a face has the name
-  std::vector<volmesh::PatchRule> layers = {};  ///< layer rules of its patches, likewise; volume_mesh takes them over
-  std::vector<ModelPart> parts = {};            ///< parts in the order of the model; empty: one part, at its location. Cleared by code that replaces faces
-  std::vector<std::string> through = {};        ///< for a tunnel: patterns of the names of components or faces that may pass through its walls
+  std::vector<volmesh::PatchRule> layers = {};  ///< layer rules by face name, as given to the verb that made the model; volume_mesh takes them over
+  std::vector<ModelPart> parts = {};            ///< parts in the order of the model; empty: one part, at its location. Code that replaces faces must clear it
+  std::vector<std::string> through = {};        ///< for a tunnel: patterns of names of components or faces that may pass through its walls
   Provenance provenance = {};                   ///< key of its inputs, for caches
 };
 
@@ -54,15 +54,15 @@ ModelValue read_cpacs_model(const InputPath& file, const RunContext& context);
 /// \throws Error of read_smx, read_cpacs
 Aircraft description_of(const InputPath& file, const RunContext& context);
 
-/// Returns a model that was read from .smx or CPACS with its control surfaces turned (with_controls_set). Later motions of the model are lost with its
-/// description.
+/// Returns a model that was read from .smx or CPACS, with its control surfaces turned (with_controls_set). It is made again from the description, so the model
+/// must not have been changed after reading.
 /// \throws Error(bad_argument) for other models, and as with_controls_set and make_components
 ModelValue deflected_model(const ModelValue& value, const std::vector<ControlSetting>& settings, const RunContext& context);
 
 /// Checks the output path before the work starts.
 /// \throws Error(unsupported_format, write_failed) if a model cannot be written to a file of this name
 void require_model_output(const ModelValue& value, const std::filesystem::path& path);
-/// Writes STEP, IGES, BREP by extension (geometry without exact form becomes splines), .smx if there is a description.
+/// Writes STEP, IGES or BREP by extension (geometry without exact form becomes splines), or .smx if there is a description.
 /// \throws Error of io and geom
 void write_model(const ModelValue& value, const std::filesystem::path& path, const WriteCadOptions& options, const RunContext& context);
 
@@ -70,17 +70,17 @@ void write_model(const ModelValue& value, const std::filesystem::path& path, con
 Box box_of(const Model& model);
 Box box_of(const Model& model, FaceId face);
 
-/// Returns the components whose names match, whole.
+/// Returns the whole components whose names match.
 /// \throws Error(bad_argument) with the existing names if none matches
 Model select_components(const Model& model, const std::string& pattern, const std::string& attempted);
 
-/// Measures of a component, a solid, or all: those of model_measures, and the view from above.
+/// Measures of a component, a solid, or the whole model: those of model_measures, and the area seen from above.
 struct PartMeasures {
   std::string name;
   std::string kind;
   std::size_t n_faces = 0;
-  double area = 0.0;            ///< wetted, m^2
-  double projected_area = 0.0;  ///< as seen from above, half the sum over both sides: exact for closed convex shapes, m^2
+  double area = 0.0;            ///< m^2, wetted area
+  double projected_area = 0.0;  ///< m^2, area as seen from above: half the sum over both sides, which is exact for closed convex shapes
   double volume = 0.0;          ///< m^3
   bool is_closed = false;       ///< has no free edges, so that the volume is defined
   Box box;
@@ -109,7 +109,7 @@ std::string open_plane_text(const std::vector<OpenEdge>& open);
 std::string describe(const ModelValue& value);
 /// Returns several lines: totals, solids, components, wings with their reference data.
 std::string measures_text(const ModelReport& measures);
-/// Returns several lines: closed or not, every open edge (at most `limit`) with its face and location.
+/// Returns several lines: if the model is closed, and every open edge (at most `limit`) with its face and location.
 std::string closedness_text(const Model& model, std::size_t limit);
 
 }  // namespace sterna::scripting

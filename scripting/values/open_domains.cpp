@@ -15,12 +15,14 @@
 namespace sterna::scripting {
 namespace {
 
-constexpr double k_full_opening = 0.35;    ///< fraction of the surface's longest side in the plane: a smaller opening is a hole in a body
+constexpr double k_full_opening = 0.35;    ///< fraction of the surface's longest side in the plane; if the opening is smaller, it is a hole in a body
 constexpr double k_opening_at_zero = 0.1;  ///< the same fraction for a plane through the origin
-constexpr double k_most_covered = 0.1;     ///< fraction of the box of the opening: a face with a hole in it is no opening
-constexpr double k_longest_section = 4.0;  ///< distance of two parallel planes divided by the opening: above it is a tube
-constexpr double k_sheet_vector = 0.6;     ///< fraction of the area: the area vectors of a sheet add up; those of half a sphere add up to 0.5
-constexpr double k_main_part = 0.5;        ///< fraction of the total area
+constexpr double k_most_covered = 0.1;     ///< fraction of the area of the opening's box; if more is covered, it is a face with a hole and no opening
+constexpr double k_longest_section = 4.0;  ///< distance of two parallel end planes, relative to the width of the opening; if it is larger, the surface is a
+                                           ///< tube
+constexpr double k_sheet_vector = 0.6;     ///< fraction of the area; the area vectors of a sheet add up to more than this fraction, those of half a sphere to
+                                           ///< 0.5
+constexpr double k_main_part = 0.5;        ///< fraction of the total area that the main part must have
 
 std::string plane_text(const volmesh::RimPlane& plane) { return fmt::format("{} = {:.6g} m", "xyz"[plane.axis], plane.at); }
 

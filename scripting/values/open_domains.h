@@ -1,4 +1,4 @@
-// Open surfaces: classifies them as part of a body that ends in planes of the domain, as a sheet, or as a surface with inward normals.
+// Classifies open surfaces: as part of a body that ends in planes of the domain, as a sheet, or as a surface with inward normals.
 #pragma once
 
 #include <optional>
@@ -14,15 +14,16 @@ namespace sterna::scripting {
 /// surface.
 std::optional<std::string> ends_in_planes(const TriMesh& mesh, const RunContext& context);
 
-/// Returns one sentence if the largest open part of the surface is a sheet: as large as its opening, with all normals to one side, such as terrain.
+/// Returns one sentence if the largest open part of the surface is a sheet, such as terrain. A sheet is as large as its opening and has all normals to one
+/// side.
 std::optional<std::string> is_open_sheet(const TriMesh& mesh, const RunContext& context);
 
-/// Returns the surface with the normals of its open parts upwards, along the axis in which most of their area points: the fluid is above the floor
+/// Returns the surface with the normals of its open parts upwards, along the axis in which most of their area points. The fluid is above the floor
 /// (farfield_floor).
 SurfaceValue with_floor_upwards(const SurfaceValue& wall, const std::string& floor, const RunContext& context);
 
-/// Returns the surface as a body: open parts with inward normals are turned if there is a farfield, because a farfield surrounds bodies. Reports the change.
-/// \param has_farfield a farfield is given, or is the default
+/// Returns the surface as a body. If there is a farfield, open parts with inward normals are turned, because a farfield surrounds bodies. Reports the change.
+/// \param has_farfield true if a farfield is given, or is the default
 SurfaceValue as_body(const SurfaceValue& wall, bool has_farfield, const RunContext& context);
 
 }  // namespace sterna::scripting

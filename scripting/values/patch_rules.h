@@ -1,5 +1,5 @@
-// Rules for patches by patterns of their names, for any step: from tables of scripts, from and to JSON. A rule is a struct with a Schema whose member `names`
-// is the pattern; options that are not set keep their default.
+// Rules for patches by patterns of their names, for any step. They are read from tables of scripts, and converted from and to JSON. A rule is a struct with a
+// Schema whose member `names` is the pattern. Options that are not set keep their default.
 #pragma once
 
 #include <functional>
@@ -17,8 +17,8 @@ namespace sterna::scripting {
 /// Creates the rule for a pattern; its options are set before the next rule is created.
 using AddRule = std::function<OptionTable(const std::string& names)>;
 
-/// Reads patches = { ["wing*"] = { max_edge = 0.1 } }: one rule for each entry, in no particular order. Notes problems. `example` shows the possible content of
-/// an entry.
+/// Reads patches = { ["wing*"] = { max_edge = 0.1 } }, with one rule for each entry, in no particular order. Notes problems. `example` shows the possible
+/// content of an entry.
 void read_patch_rules(TableReader& reader, std::string_view example, const AddRule& add);
 
 /// Returns true if an option has its default value.
@@ -36,8 +36,8 @@ void add_layer_rules(const std::vector<volmesh::PatchRule>& rules, SurfaceValue&
 std::string layer_rules_help();
 /// Returns the rules of a script for volume_mesh, sorted.
 std::vector<volmesh::PatchRule> read_layer_rules(TableReader& reader);
-/// Returns the rules of the command line, sorted: pattern, options with their values. Options of the surface go to `sizes` if it is not null, else they are
-/// unknown.
+/// Returns the rules of the command line, sorted. \p given has patterns, and options with their values. Options of the surface go to `sizes` if it is not null;
+/// otherwise they are unknown options.
 /// \throws Error(bad_argument, unknown_option)
 std::vector<volmesh::PatchRule> layer_rules_of(const std::vector<std::pair<std::string, std::vector<std::pair<std::string, std::string>>>>& given,
                                                std::vector<surfmesh::PatchSurfaceOptions>* sizes = nullptr);
@@ -48,7 +48,7 @@ std::string rule_json(const std::string& names, const OptionTable& options);
 /// \throws Error(file_malformed, bad_argument, unknown_option)
 void read_rules_json(const std::string& list, std::string_view attempted, const AddRule& add);
 
-/// Returns the rules of volume_mesh, for manifests; and the reverse.
+/// layer_rules_json returns the rules of volume_mesh, for manifests; the second function reads them.
 std::string layer_rules_json(const std::vector<volmesh::PatchRule>& rules);
 std::vector<volmesh::PatchRule> layer_rules_of_json(const std::string& text);
 

@@ -1,4 +1,4 @@
-// periodic = { { "left", "right" } }: pairs of matching patches, from a verb's table, from the command line and from the files of stages.
+// Reads pairs of matching patches, periodic = { { "left", "right" } }, from a verb's table, from the command line and from the files of stages.
 #pragma once
 
 #include <string>
@@ -12,7 +12,7 @@ namespace sterna::scripting {
 /// Reads the entry "periodic" of a table: a list of pairs of names, or one pair. Notes problems with the reader.
 std::vector<volmesh::PeriodicNames> read_periodic(TableReader& reader);
 
-/// Returns pairs in the form of SurfaceMeshOptions::periodic; and the reverse.
+/// periodic_text returns pairs in the form of SurfaceMeshOptions::periodic; the second function reads them.
 /// \throws Error(bad_argument) if the string is no such list
 std::string periodic_text(const std::vector<volmesh::PeriodicNames>& pairs);
 std::vector<volmesh::PeriodicNames> periodic_of_surface(const std::string& text);
@@ -21,7 +21,7 @@ std::vector<volmesh::PeriodicNames> periodic_of_surface(const std::string& text)
 /// \throws Error(bad_argument)
 volmesh::PeriodicNames periodic_of_text(const std::string& text);
 
-/// Returns pairs as a JSON list of lists, for manifests and the files of stages; and the reverse.
+/// periodic_json returns pairs as a JSON list of lists, for manifests and the files of stages; the second function reads it.
 /// \throws Error(bad_argument) if the text is no such list
 std::string periodic_json(const std::vector<volmesh::PeriodicNames>& pairs);
 std::vector<volmesh::PeriodicNames> periodic_of_json(const std::string& text);

@@ -21,20 +21,20 @@ namespace {
 using volmesh::FindingKind;
 using volmesh::InspectReport;
 
-// Seconds of one thread, fitted to all files of tests/data/shared; the program for the fit is not kept.
+// Seconds of one thread, fitted to all files of tests/data/shared. The program for the fit is not kept.
 constexpr double k_start_seconds = 0.05;       ///< start of each step
-constexpr double k_repair_of_facet = 1e-5;     ///< welding, seams, distances
-constexpr double k_repair_of_hull = 0.15;      ///< if facets cross: mostly samples of distances
-constexpr double k_repair_of_crossing = 4e-4;  ///< per pair: cutting, hull, repair of rounding errors
+constexpr double k_repair_of_facet = 1e-5;     ///< per facet: welding, seams, distances
+constexpr double k_repair_of_hull = 0.15;      ///< hull, if facets cross: mostly samples of distances
+constexpr double k_repair_of_crossing = 4e-4;  ///< per crossing pair: cutting, hull, repair of rounding errors
 constexpr double k_repair_of_filling = 1e-4;   ///< per facet that fills a hole
 constexpr double k_wrap_of_triangle = 2.5e-4;  ///< per triangle of the wrap
 constexpr double k_wrap_coarse = 2.0;          ///< factor if a coarser wrap closes openings first
 constexpr double k_wrap_leaking = 3.0;         ///< factor if openings are wider than the widest gap
 constexpr double k_remesh_of_facet = 3.5e-5;
-constexpr double k_remesh_of_first = 5e-4;  ///< per facet of the first ones: coarse surfaces are refined to many new triangles
+constexpr double k_remesh_of_first = 5e-4;  ///< per facet of the given surface: coarse surfaces are refined to many new triangles
 constexpr double k_remesh_first = 2000.0;
-constexpr double k_model_of_triangle = 4e-5;  ///< faces are meshed twice: once to find crossings
-constexpr double k_seconds_off = 3.0;         ///< error factor of the seconds
+constexpr double k_model_of_triangle = 4e-5;  ///< per triangle: faces are meshed twice, the first time to find crossings
+constexpr double k_seconds_off = 3.0;         ///< factor by which the seconds may be wrong
 
 std::int64_t count_needles(const InspectReport& report, double limit) {
   const auto field = std::ranges::find(report.fields, "smallest_angle", &TriMeshField::name);
@@ -119,7 +119,7 @@ void choose_repair_or_wrap(Preparation& p, const AutoSurface& options) {
   } else {
     p.reason = forecast.problem + "; facets cross, and the outer hull is switched off (hull = false)";
   }
-  // Wraps once; preceded by a coarser wrap if openings are wider than the edge; with skin on both sides if they are wider than the widest gap.
+  // The input is wrapped once. If openings are wider than the edge, a coarser wrap precedes; if they are wider than the widest gap, the skin has both sides.
   const double rounds = forecast.widest_open > wrap.widest_gap ? k_wrap_leaking : forecast.widest_open > 2.0 * wrap.edge ? k_wrap_coarse : 1.0;
   p.seconds =
       k_start_seconds + k_repair_of_facet * static_cast<double>(forecast.n_facets) + rounds * k_wrap_of_triangle * static_cast<double>(wrap.n_triangles);
@@ -142,7 +142,7 @@ void advise_remesh(Preparation& p, const InspectReport& report) {
   p.basis = counted(n, "triangle", "triangles");
 }
 
-/// Writes the commands for the preparation; none without names of files.
+/// Writes the commands for the preparation. Writes none if the names of the files are unknown.
 void write_commands(Preparation& p, std::span<const std::string> inputs, double in_metres) {
   if (p.needed == Strength::none || p.needed == Strength::beyond || inputs.empty()) return;
   std::string words, names;

@@ -23,25 +23,26 @@
 namespace sterna::scripting {
 namespace {
 
-/// Maximum fraction of the previous share of slivers. If more slivers remain, the feature lines of the surface force them, and layers there do not improve.
+/// Largest accepted share of slivers, relative to the previous share. If more slivers remain, the feature lines of the surface force them, and layers there do
+/// not improve.
 constexpr double k_fewer_needles = 0.5;
-/// Limits relative to the body's length and to the new triangles' edges. New triangles further from the given ones have lost part of the shape (a dent, a nose,
-/// a thin part).
+/// Limits of the distance of new triangles from the given ones, relative to the body's length and to the edges of the new triangles. Beyond them the new
+/// triangles have lost part of the shape (a dent, a nose, a thin part).
 constexpr double k_largest_distance = 1e-3, k_largest_of_edge = 0.2;
-/// Fraction of the area that may be turned from the smooth surface in addition to that of the given triangles: regions at feature lines, where both values
-/// depend on a single triangle.
+/// Fraction of the area that may be turned from the smooth surface in addition to that of the given triangles. It allows for regions at feature lines, where
+/// both values depend on a single triangle.
 constexpr double k_more_turned = 0.005;
-/// Limits of the triangles made by without_needles(), as a factor and as a number, whichever is more: steps and slivers that resemble curvature would lead to
-/// millions.
+/// Limits of the number of triangles made by without_needles(): a factor and a number, of which the larger applies. Without them, steps and slivers that
+/// resemble curvature would lead to millions of triangles.
 constexpr std::size_t k_many_times = 20, k_few_triangles = 200'000;
 
-/// An attempt: refinement of a family, and vertices on the given triangles if those on the smooth surface are too far from them.
+/// One attempt: the refinement of a family, and if vertices are on the given triangles because those on the smooth surface are too far from them.
 struct RemeshAttempt {
   double refinement;
   bool is_smooth;
 };
-/// The first attempt uses the requested sizes. With too many triangles, larger sizes follow; with a result that is too far from the shape, or too thin, smaller
-/// ones.
+/// The first attempt uses the requested sizes. If it has too many triangles, larger sizes follow; if its result is too far from the shape, or too thin, smaller
+/// sizes follow.
 constexpr RemeshAttempt k_first{1.0, true};
 constexpr std::array<RemeshAttempt, 2> k_coarser{{{2.0 / 3.0, true}, {4.0 / 9.0, true}}};
 constexpr std::array<RemeshAttempt, 2> k_finer{{{1.0, false}, {1.5, true}}};
@@ -66,11 +67,11 @@ SurfaceValue remeshed_if(const SurfaceValue& wall, const RemeshRecipe& recipe, c
   surfmesh::RemeshResult result = cached<surfmesh::RemeshResult>(reuse, "remesh", "", remesh_key(wall, recipe, size), context, [&] {
     return surfmesh::remesh_surface(wall.mesh, recipe.options, recipe.patches, sizes, demand, context);
   });
-  require_likeness(result.report, demand);  // a cached result may have been made without a demand
+  require_likeness(result.report, demand);  // a cached result may have been made without this demand
   SurfaceValue made = wall;
   made.mesh = std::move(result.mesh);
   made.remesh_options = recipe.options;
-  made.mesh_report.reset();  // report of the triangles before
+  made.mesh_report.reset();  // the report is that of the former triangles
   made.model_wall.reset();
   made.model_wall_key.reset();
   made.parts.clear();
@@ -117,7 +118,7 @@ SurfaceValue without_needles(const SurfaceValue& wall, const RemeshRecipe& recip
                                       .largest_distance = k_largest_distance,
                                       .largest_distance_of_edge = k_largest_of_edge,
                                       .more_turned = k_more_turned};
-  const auto meets = [&](const SurfaceValue& made) {  // a cached result may have been made without a demand
+  const auto meets = [&](const SurfaceValue& made) {  // a cached result may have been made without this demand
     const surfmesh::NeedleCount after = surfmesh::count_needles(made.mesh);
     const double share = static_cast<double>(after.n) / static_cast<double>(made.mesh.n_triangles());
     if (share <= demand.most_needles && after.least_angle >= demand.least_angle) return true;

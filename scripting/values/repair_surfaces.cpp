@@ -36,7 +36,7 @@ constexpr double k_as_it_is_end = 0.3;
 constexpr double k_triangles_end = 0.35;
 constexpr double k_repair_end = 0.6;
 constexpr double k_remesh_begin = 0.7;
-constexpr std::size_t k_faces_told = 3;  ///< number of faces in the summary
+constexpr std::size_t k_faces_told = 3;  ///< number of faces named in the summary
 
 /// Cached data of a repair.
 struct RepairedWall {
@@ -75,7 +75,7 @@ bool are_models(std::span<const InputPath> files) {
   return std::ranges::all_of(files, [](const InputPath& file) { return is_model_file(file.path); });
 }
 
-/// A repaired surface that is not accepted yet: no warnings were given.
+/// A repaired surface that is not accepted yet. No warnings have been given for it.
 struct Repaired {
   SurfaceValue wall;
   std::optional<GeometryChange> change;  ///< nothing: unchanged
@@ -120,7 +120,7 @@ Repaired repaired_of(std::span<const UnionItem> items, const surfmesh::StitchOpt
 }
 
 /// Reads a surface that is sound: closed, or open in planes of the domain only.
-/// \throws Error of read_wall, of the closed surface
+/// \throws Error of read_wall; also for a surface that is not closed
 SurfaceValue read_as_it_is(std::span<const InputPath> files, const surfmesh::StitchOptions& stitching, const RunContext& context) {
   const WallFiles read = read_wall_files(files, stitching, context.part("read", 0.0, k_files_read_end));
   try {
@@ -146,7 +146,7 @@ SurfaceValue read_as_it_is(std::span<const InputPath> files, const surfmesh::Sti
   }
 }
 
-/// Returns one sentence if the input of the wrap is a sheet.
+/// Returns one sentence if the surface to be wrapped is a sheet.
 std::optional<std::string> sheet_of(std::span<const UnionItem> items, const surfmesh::StitchOptions& stitching, const RunContext& context) {
   surfmesh::StitchOptions open = stitching;
   open.allow_open = true;
@@ -235,14 +235,14 @@ SurfaceValue auto_triangles(std::span<const InputPath> files, const AutoSurface&
   if (are_models(files)) {
     SurfaceRecipe recipe = options.recipe;
     recipe.options.crossings = "ignore";
-    recipe.options.failed_faces = "hole";  // repair fills them
+    recipe.options.failed_faces = "hole";  // repair fills the holes of failed faces
     const RunContext part = context.part("triangles", k_as_it_is_end, k_triangles_end);
     of_model = std::make_shared<const SurfaceValue>(open ? *open : mesh_model_files(files, options.reading, recipe, part, reuse, options.periodic));
     items = {of_model};
     stitching.unit = 1.0;
     if (options.reading.fluid != "automatic") stitching.fluid = options.reading.fluid;
   }
-  std::optional<Repaired> folded;  // its remaining facets are folded onto each other
+  std::optional<Repaired> folded;  // a repaired surface whose remaining facets are folded onto each other
   try {
     Repaired repaired = repaired_of(items, stitching, options.repair, reuse, context.part("repair", k_triangles_end, k_repair_end), {});
     if (open && repaired.wall.changes.size() == open->changes.size()) return *open;

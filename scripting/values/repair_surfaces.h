@@ -1,4 +1,4 @@
-// repair of files and surfaces, and the sequence of --auto: as they are, repaired, wrapped.
+// repair of files and surfaces, and the sequence of --auto: use the files as they are, else repair them, else wrap them.
 #pragma once
 
 #include <functional>
@@ -16,17 +16,17 @@
 namespace sterna::scripting {
 
 /// Reads files with the unit of `stitching`; surfaces are in metres. Sound surfaces are returned with the bytes of read_wall and without a change. `look`
-/// receives the whole report; then nothing is taken from a cache.
+/// receives the whole report; if it is set, nothing is taken from a cache.
 /// \throws Error of io and of surfmesh::repair_surface
 SurfaceValue repair_surfaces(std::span<const UnionItem> items, const surfmesh::StitchOptions& stitching, const surfmesh::RepairOptions& options,
                              const Reuse& reuse, const RunContext& context, const std::function<void(const surfmesh::RepairReport&)>& look = {});
 
-/// Returns the options of repair for users: its own options and those of reading, except the ones that repair sets itself.
+/// Returns the options of repair for users: those of repair itself and those of reading, except options of reading that repair sets.
 OptionTable repair_options(surfmesh::StitchOptions& stitching, surfmesh::RepairOptions& options);
 
 /// Returns the changed facets, for a VTU.
 TroubleGeometry changed_facets(const surfmesh::RepairReport& report);
-/// Returns changes with kind, location, size and number of facets, the distances and the options, as JSON.
+/// Returns, as JSON, the changes with kind, location, size and number of facets, the distances, and the options.
 std::string repair_json(const surfmesh::RepairReport& report);
 
 struct AutoSurface {
@@ -35,17 +35,17 @@ struct AutoSurface {
   surfmesh::WrapOptions wrap = {};                    ///< its unit, fluid and split_angle are those of `stitching`
   ReadCadOptions reading = {};                        ///< for models
   SurfaceRecipe recipe = {};                          ///< for models
-  std::vector<volmesh::PeriodicNames> periodic = {};  ///< pairs of sides of the volume; those that are faces of models are meshed identically
+  std::vector<volmesh::PeriodicNames> periodic = {};  ///< pairs of sides of the volume; pairs of faces of models are meshed identically
   surfmesh::RemeshOptions remesh = {};
 };
 
 /// Returns a surface that can be meshed, with as few changes as its files allow. Surfaces that can be meshed as they are have the bytes of read_wall or
 /// mesh_model_files. Models whose faces cross or fold, or that are open, are first triangulated as they are (crossings = "ignore") and then treated as
 /// triangulations.
-/// \throws Error of the first step with the reports of repair and wrap; at once if the error is not about the surface (a missing file, an option)
+/// \throws Error of the first step with the reports of repair and wrap. An error that is not about the surface (a missing file, an option) is thrown at once
 SurfaceValue auto_triangles(std::span<const InputPath> files, const AutoSurface& options, const Reuse& reuse, const RunContext& context);
 
-/// Returns auto_triangles(), with new triangles if the given ones would make gates fail (without_needles).
+/// Returns the surface of auto_triangles(), with new triangles if the given ones would make gates fail (without_needles).
 SurfaceValue auto_surface(std::span<const InputPath> files, const AutoSurface& options, const Reuse& reuse, const RunContext& context);
 
 /// Returns true if an error is about the surface itself, so that repair or wrap may help.

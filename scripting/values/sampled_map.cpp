@@ -1,5 +1,5 @@
-// Starts with four intervals along each axis; builds the spline; compares at the middle of the intervals of each axis, at the stations of the other axes,
-// and at irregular points in all cells; halves the intervals with too large errors; repeats.
+// Starts with four intervals along each axis. Builds the spline; compares it with the function at the middle of the intervals of each axis, at the stations of
+// the other axes, and at irregular points in all cells; halves the intervals with too large errors; and repeats this.
 #include "scripting/values/sampled_map.h"
 
 #include <fmt/format.h>
@@ -15,7 +15,7 @@ namespace sterna::scripting {
 namespace {
 
 constexpr std::size_t k_first_intervals = 4;
-/// Fraction of the longest side, the default.
+/// Default tolerance as a fraction of the longest side.
 constexpr double k_tolerance_share = 1e-6;
 /// Intervals shorter than this fraction of the longest side are not halved again: no spline follows a step.
 constexpr double k_least_interval = 1e-9;
@@ -24,7 +24,7 @@ constexpr double k_margin = 0.02;
 /// Maximum ratio of neighbouring intervals. Splines through points graded by more than (3 + sqrt 5) / 2 may oscillate without bound (Marsden, 1974); halving
 /// gives 2 plus rounding.
 constexpr double k_ratio = 2.1;
-/// Points of a cell for the final comparison: no simple fractions, so that a periodic function cannot pass by coincidence.
+/// Points of a cell for the final comparison. They are no simple fractions, so that a periodic function does not pass by coincidence.
 constexpr std::array<double, 3> k_crooked = {0.31, 0.43, 0.59};
 
 using Stations = std::array<std::vector<double>, 3>;
@@ -37,7 +37,7 @@ using Stations = std::array<std::vector<double>, 3>;
                .hint = std::move(hint)});
 }
 
-/// The function with its stored values.
+/// A function that stores its values.
 class Kept {
  public:
   explicit Kept(const std::function<Vec3(const Point&)>& f) : f_(f) {}
@@ -78,7 +78,7 @@ std::vector<double> graded(std::vector<double> at) {
   }
 }
 
-/// Converts values in a grid of sizes n, [(i * n_y + j) * n_z + k]: the grid lines along an axis become poles of splines. n is updated, since splines may have
+/// Converts values in a grid of sizes n, [(i * n_y + j) * n_z + k], to poles: the grid lines along an axis become splines. n is updated, since splines may have
 /// more poles than points.
 std::vector<Vec3> splined(const std::vector<Vec3>& values, std::array<std::size_t, 3>& n, const std::vector<double>& at, std::size_t axis,
                           std::vector<double>& knots) {
@@ -161,7 +161,7 @@ SampledMap::SampledMap(const std::function<Vec3(const Point&)>& displacement, co
             }
           }
     }
-    // The errors at the middles of the intervals may be small, but large beside them; then the cell is split along all axes.
+    // Errors may be small at the middles of the intervals but large beside them. The cell is then split along all axes.
     if (!is_any)
       for (std::size_t i = 0; i + 1 < at[0].size(); ++i)
         for (std::size_t j = 0; j + 1 < at[1].size(); ++j)

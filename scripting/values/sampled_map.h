@@ -1,5 +1,5 @@
-// A deformation given as a function of a script, converted to a tricubic spline: the function is called from one thread during sampling, the spline from any
-// thread.
+// Converts a deformation that is given as a function of a script to a tricubic spline. The function is called from one thread during sampling; the spline may
+// be called from any thread.
 #pragma once
 
 #include <array>
@@ -18,12 +18,12 @@ struct SampledMapOptions {
   int max_samples = 200000;
 };
 
-/// p + d(p), where d is a tensor-product cubic spline over a box; outside of the box the outermost pieces are extrapolated.
+/// The map p + d(p), where d is a tensor-product cubic spline over a box. Outside of the box the outermost pieces are extrapolated.
 class SampledMap final : public SpaceMap {
  public:
-  /// Samples `displacement` in `box`, refined along each axis until the spline is within the tolerance (metres; automatic: 1e-6 of the box's longest side) at
-  /// locations between all samples. The function is called from this thread only.
-  /// \throws Error(bad_argument) with the location: not finite, or the tolerance is not reached with max_samples
+  /// Samples `displacement` in `box`. The samples are refined along each axis until the spline is within the tolerance (metres; automatic: 1e-6 of the box's
+  /// longest side) at locations between all samples. The function is called from this thread only.
+  /// \throws Error(bad_argument) with the location where the function is not finite, or where the tolerance is not reached with max_samples
   SampledMap(const std::function<Vec3(const Point&)>& displacement, const Box& box, const SampledMapOptions& options);
   Point point(const Point& p) const override;
   SpaceMapDerivatives derivatives(const Point& p) const override;

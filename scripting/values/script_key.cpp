@@ -21,7 +21,7 @@ namespace {
 
 bool add(const ScriptValue& value, const ScriptCall& call, KeyMaker& maker);
 
-/// Adds a string. A string that names a file is added with the content and the file name (without its folder), because models are named after the file.
+/// Adds a string. If it names a file, also adds the content and the name of the file (without its folder), because models are named after the file.
 void add_text(const std::string& text, const ScriptCall& call, KeyMaker& maker) {
   const std::filesystem::path path = find_input(call, text).path;
   std::error_code none;
@@ -68,7 +68,7 @@ bool add(const ScriptValue& value, const ScriptCall& call, KeyMaker& maker) {
   return true;
 }
 
-/// Options of meshing do not change models.
+/// Returns true if an option can affect a model, which options of meshing do not.
 bool is_of_models(const std::string& option) {
   volmesh::MeshCase volume;
   surfmesh::SurfaceMeshOptions surface;
@@ -97,7 +97,7 @@ ScriptValue with_provenance(ScriptValue result, const ScriptCall& call) {
   if (call.session.cache == nullptr || model == nullptr || std::any_of(call.arguments.begin(), call.arguments.end(), is_same)) return result;
   const std::optional<ContentKey> key = key_of_call(call);
   if (!key) return result;
-  auto known = std::make_shared<ModelValue>(**model);  // a copy of handles: the geometry is shared
+  auto known = std::make_shared<ModelValue>(**model);  // copies handles only: the geometry is shared
   known->provenance = *key;
   return ModelHandle(std::move(known));
 }

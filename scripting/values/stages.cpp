@@ -73,7 +73,8 @@ volmesh::Envelope envelope_of(io::StoredEnvelope file_envelope, const InputPath&
   return envelope;
 }
 
-/// Returns the mesh without the nodes after those of its layer: nodes of the boundary of the tetrahedra are kept, at their position at that time.
+/// Returns the mesh without the nodes after those of its layer. Nodes on the boundary of the tetrahedra are kept, at their position when the tetrahedra were
+/// made.
 HybridMesh layers_of(HybridMesh mesh, const io::StoredTetrahedra& tetrahedra, const InputPath& file) {
   const std::uint64_t n_boundary_points = tetrahedra.n_boundary_points;
   const std::size_t n_lines = mesh.layers.n_lines();
@@ -133,7 +134,7 @@ std::vector<volmesh::PatchRule> thickness_rules(const SurfaceValue& wall, const 
   return rules;
 }
 
-/// Returns the rules for patches: defaults of placed parts, rules of the makers of the wall, rules of the user; later rules win.
+/// Returns the rules for patches: first defaults of placed parts, then rules of the makers of the wall, then rules of the user. Later rules win.
 std::vector<volmesh::PatchRule> rules_of(const SurfaceValue& wall, const volmesh::MeshCase& options) {
   std::vector<volmesh::PatchRule> rules = thickness_rules(wall, options);
   rules.insert(rules.end(), wall.layers.begin(), wall.layers.end());
@@ -141,7 +142,7 @@ std::vector<volmesh::PatchRule> rules_of(const SurfaceValue& wall, const volmesh
   return rules;
 }
 
-/// Returns the data of an unfinished run; a finished run has its manifest.
+/// Returns the data of an unfinished run, which has no manifest yet.
 std::string unfinished_json(const SurfaceValue& wall, const volmesh::MeshCase& options, Json stage) {
   surfmesh::StitchOptions surface_options = wall.options;
   volmesh::MeshCase volume_options = options;
@@ -192,16 +193,16 @@ class StageJson {
   void read_options(const OptionTable& options) const {
     for (const Option& option : options) {
       const std::string pointer = "/options/" + std::string(option.stage) + "/" + std::string(option.name);
-      if (!json_.contains(Json::json_pointer(pointer))) continue;  // from a version without this member: keeps its default
+      if (!json_.contains(Json::json_pointer(pointer))) continue;  // the file is from a version without this member, which keeps its default
       const Json& value = json_.at(Json::json_pointer(pointer));
       set_option_from_text(option, value.is_string() ? value.get<std::string>() : value.dump());
     }
   }
 
-  /// Returns false for older versions, which made layers on walls without splitting slivers.
+  /// Returns false for files of older versions, which made layers on walls without splitting slivers.
   bool knows_needles() const { return json_.contains(Json::json_pointer("/options/needles")); }
 
-  /// Returns false for older versions, which gave members of a family no sources.
+  /// Returns false for files of older versions, which gave members of a family no sources.
   bool knows_family_wake() const { return json_.contains(Json::json_pointer("/options/family/family_wake")); }
 
   std::vector<volmesh::PatchRule> patch_rules() const {
@@ -222,7 +223,7 @@ class StageJson {
     return result;
   }
 
-  /// Returns the smooth angle of a wall made by surface_mesh, in this run or an earlier one. Radians.
+  /// Returns the smooth angle, radians, of a wall made by surface_mesh in this run or an earlier one.
   std::optional<double> smooth_angle() const {
     if (!json_.contains(Json::json_pointer("/wall/max_smooth_angle"))) return std::nullopt;
     return get<double>("/wall/max_smooth_angle");
@@ -248,7 +249,7 @@ class StageJson {
     return found == json_.end() ? std::vector<volmesh::PeriodicNames>() : periodic_of_json(found->dump());
   }
 
-  /// Empty for files of versions that did not detect slivers.
+  /// Returns the report on slivers; empty for files of versions that did not detect slivers.
   volmesh::NeedleReport needles() const {
     if (!json_.contains(Json::json_pointer("/stage/needles"))) return {};
     const auto count = [&](const char* name) { return get<std::int64_t>(std::string("/stage/needles/") + name); };
@@ -262,7 +263,7 @@ class StageJson {
             .first_left = {first[0], first[1], first[2]}};
   }
 
-  /// Present only in files of runs that had to close some.
+  /// Returns the closed fans, which are present only in files of runs that had to close some.
   volmesh::ClosedFans closed_fans() const {
     volmesh::ClosedFans closed;
     if (!json_.contains(Json::json_pointer("/stage/closed_fans"))) return closed;
@@ -274,7 +275,7 @@ class StageJson {
 
   bool is_opened() const { return json_.contains(Json::json_pointer("/stage/is_opened")) && get<bool>("/stage/is_opened"); }
 
-  /// Finished runs list the sources, the others count them.
+  /// Returns the number of sources. Files of finished runs list the sources, other files only count them.
   std::size_t n_sources() const {
     const auto found = json_.find("sources");
     return found == json_.end() ? 0 : found->is_array() ? found->size() : get<std::size_t>("/sources");
@@ -339,7 +340,7 @@ MeshValue mesh_value(const SurfaceValue& wall, std::int64_t n_wall_triangles, co
                             .is_reproducible = result.is_reproducible,
                             .tetra_engine_seconds = result.tetra_engine_seconds,
                             .tetra_engine_peak_bytes = result.tetra_engine_peak_bytes};
-  value.origin->options.patches = rules_of(wall, options);  // a file with the stages gets them only from here
+  value.origin->options.patches = rules_of(wall, options);  // a file with the stages gets these rules only from here
   return value;
 }
 
@@ -373,13 +374,13 @@ void write_filled(const SurfaceValue& wall, std::int64_t n_wall_triangles, const
                    path, context);
 }
 
-/// The remaining data of a stage after its layer has become the mesh.
+/// Data of a stage that remain after its layer has become the mesh.
 struct FinishedParts {
   std::optional<TriMesh> split_wall;
   io::StoredEnvelope envelope;
   io::StoredTetrahedra tetrahedra;
-  std::vector<Point> layer_points;   ///< m, of the stage's layer, if it is the mesh's
-  std::optional<HybridMesh> opened;  ///< the stage's layer, if it is not
+  std::vector<Point> layer_points;   ///< m, points of the stage's layer, if that is the mesh's layer
+  std::optional<HybridMesh> opened;  ///< the stage's layer, if that is not the mesh's layer
   Json json;
 };
 
@@ -419,7 +420,7 @@ OptionTable finish_options(volmesh::MeshCase& options) { return volmesh::options
 
 namespace {
 
-/// Returns the periodic sides that the mesher of the wall meshed identically, if the wall has still its triangles.
+/// Returns the periodic sides that the mesher of the wall meshed identically, if the wall still has its triangles.
 std::vector<volmesh::PeriodicNames> periodic_of_wall(const SurfaceValue& wall) {
   if (!wall.recipe || wall.remesh_options || wall.repair_options || wall.wrap_options || wall.union_options) return {};
   std::vector<volmesh::PeriodicNames> pairs = periodic_of_surface(wall.recipe->options.periodic);
@@ -434,7 +435,7 @@ std::vector<volmesh::PeriodicNames> periodic_of_wall(const SurfaceValue& wall) {
 
 volmesh::MeshCase with_wall_facts(const SurfaceValue& wall, volmesh::MeshCase options) {
   if (wall.smooth_angle) options.smooth_angle = *wall.smooth_angle;
-  if (!options.first_heights) options.parts = wall.parts;  // else their layers depend on their location
+  if (!options.first_heights) options.parts = wall.parts;  // with variable first heights, the layers of parts depend on their location
   options.patches = rules_of(wall, options);
   if (options.periodic.empty()) options.periodic = periodic_of_wall(wall);
   return options;
@@ -464,7 +465,7 @@ MeshValue finish_mesh(const TetrahedraValue& tetrahedra, const volmesh::MeshCase
 
 namespace {
 
-/// Gives a hint if no source refines the wake, which is then resolved only by the growth of tetrahedra.
+/// Gives a hint if no source refines the wake. It is then resolved only by the growth of tetrahedra.
 void hint_at_wake(const SurfaceValue& wall, const volmesh::MeshCase& options, const RunContext& context) {
   if (volmesh::has_bare_wake(wall.mesh, options))
     context.info(
@@ -472,7 +473,8 @@ void hint_at_wake(const SurfaceValue& wall, const volmesh::MeshCase& options, co
         "automatically");
 }
 
-/// Gives a hint, before the work, if the layers are too few to reach the size of tetrahedra and leave a jump on top. The hint contains the sufficient number.
+/// Gives a hint before the work if there are too few layers to reach the size of tetrahedra, which leaves a jump on top of the layers. The hint contains a
+/// sufficient number.
 void hint_at_layers(const SurfaceValue& wall, const volmesh::MeshCase& options, const RunContext& context) {
   if (const auto thin = volmesh::thin_layers(wall.mesh, options))
     context.info(

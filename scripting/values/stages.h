@@ -1,4 +1,4 @@
-// A volume mesh step by step: intermediate values, stored in a .sterna file, so that a run can be stopped and continued to the same bytes.
+// A volume mesh step by step. Intermediate values are stored in a .sterna file, so that a run can be stopped and continued to the same bytes.
 #pragma once
 
 #include <cstddef>
@@ -18,15 +18,15 @@ struct EnvelopeValue {
   SurfaceHandle wall;
   volmesh::MeshCase options;
   volmesh::EnvelopeStage stage;
-  volmesh::EnvelopeStep step = volmesh::EnvelopeStep::finished;  ///< last step performed, if the steps are called one by one (envelope_steps.h)
-  std::shared_ptr<const volmesh::Classification> classes = {};   ///< result of the step "classified", which has no other data
-  std::size_t n_sources_in_file = 0;                             ///< number of sources in the run that wrote the file of this value; `options` lack them
+  volmesh::EnvelopeStep step = volmesh::EnvelopeStep::finished;  ///< last step that was performed, if the steps are called one by one (envelope_steps.h)
+  std::shared_ptr<const volmesh::Classification> classes = {};   ///< result of the step "classified", which makes no other data
+  std::size_t n_sources_in_file = 0;                             ///< number of sources in the run that wrote the file of this value; `options` do not have them
 };
 
 /// Layer and tetrahedra, not yet combined to one mesh.
 struct TetrahedraValue {
   SurfaceHandle wall;
-  std::int64_t n_wall_triangles = 0;  ///< as given, before any splits
+  std::int64_t n_wall_triangles = 0;  ///< number of given triangles, before any splits
   volmesh::MeshCase options;
   volmesh::FilledStage stage;
 };
@@ -36,7 +36,7 @@ OptionTable envelope_options(volmesh::MeshCase& options);
 OptionTable tetrahedra_options(volmesh::MeshCase& options);
 OptionTable finish_options(volmesh::MeshCase& options);
 
-/// Returns the options with the facts of the wall itself: turns where it is smooth, rules for its patches, its model.
+/// Returns the options completed by properties of the wall itself: the largest turn where it is smooth, rules for its patches, its model.
 volmesh::MeshCase with_wall_facts(const SurfaceValue& wall, volmesh::MeshCase options);
 
 /// \throws Error of volmesh::make_envelope, make_tetrahedra, finish_mesh.
@@ -44,12 +44,12 @@ EnvelopeValue make_envelope(const SurfaceHandle& wall, const volmesh::MeshCase& 
 TetrahedraValue make_tetrahedra(const EnvelopeValue& envelope, const volmesh::MeshCase& options, const RunContext& context, const Reuse& reuse = {});
 MeshValue finish_mesh(const TetrahedraValue& tetrahedra, const volmesh::MeshCase& options, const RunContext& context, const Reuse& reuse = {});
 
-/// make_volume_mesh() that stores surface, envelope, tetrahedra and finally the mesh, its manifest, certificate and quality in a .sterna file, which is
-/// replaced as each step ends. Nothing is written without a name.
+/// Makes a volume mesh. Stores surface, envelope, tetrahedra and finally the mesh, its manifest, certificate and quality in a .sterna file, which is replaced
+/// as each step ends. Nothing is written without a name.
 MeshValue make_volume_mesh(const SurfaceValue& wall, const volmesh::MeshCase& options, const std::filesystem::path& stages, const RunContext& context,
                            const Reuse& reuse = {});
 
-/// The content of a .sterna file; null for missing parts. The envelope in a file with tetrahedra is the one below their layer, of its wall with splits.
+/// The content of a .sterna file; null for missing parts. In a file with tetrahedra, the envelope is that of their layer, and its wall may have been split.
 struct StageContent {
   SurfaceHandle surface;
   EnvelopeHandle envelope;

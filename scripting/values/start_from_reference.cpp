@@ -11,7 +11,7 @@
 
 namespace sterna::scripting {
 
-/// A part's envelope that may have started from the reference's, and the outcome.
+/// A part's envelope, which may have started from the reference's envelope, and a text about that.
 struct StartedEnvelope {
   volmesh::PartEnvelope part;
   std::string outcome;
@@ -71,7 +71,7 @@ std::string difference_text(const std::vector<KeptPart>& parts, const std::strin
   return "the reference has no part with this name";
 }
 
-/// Returns a reason against taking over triangles, before any attempt; empty: none.
+/// Returns a reason against taking over triangles that is known before any attempt; empty: there is none.
 std::string objection(const KeptPart& like, const PartTask& task) {
   surfmesh::SurfaceMeshOptions before = like.options, now = task.options;
   if (const std::string names = differing(sterna::options_of(before), sterna::options_of(now)); !names.empty())
@@ -99,7 +99,7 @@ surfmesh::SurfaceMesh mesh_from_reference(const PartTask& task, const Reuse& reu
   Column<VertexId, Point> points = surfmesh::carried_points(like->mesh, task.model, structure, context);
   if (points_key(points) == like->geometry) {
     if (!against.empty()) reference.tell(what + "meshed again: " + against, reuse, context);
-    return ordinary(task, context);  // the geometry is the reference's own
+    return ordinary(task, context);  // the part has the reference's own geometry
   }
   if (!against.empty()) return anew(against);
   const std::string of_cache = "of " + part_name_of(task.model) + " with the triangles of " + reference.name();
@@ -115,7 +115,7 @@ surfmesh::SurfaceMesh mesh_from_reference(const PartTask& task, const Reuse& reu
 
 // ---- Envelopes -------------------------------------------------------------------------------------------------------------------------------
 
-/// Options that may differ: heights follow those of this case, and the feature angle depends on the wall.
+/// Options in which the case may differ from the reference: heights follow those of this case, and the feature angle depends on the wall.
 constexpr std::string_view k_free_options = " layers first_height max_growth total_height solve_for max_thickness max_relative_height feature_angle ";
 
 /// Returns "envelope of wing: "; if the part took over triangles, marks its envelope as reported.
@@ -125,9 +125,9 @@ std::string envelope_of(const TriMesh& wall, ReferenceUse& reference) {
   return "envelope of " + (carried ? carried->name : wall.patches.raw().front().name) + ": ";
 }
 
-/// Returns the reference's envelope from which the envelope of this wall may start. Returns null, with a report of the reason, if the reference has none with
-/// these triangles, or options differ. Returns null without a report if the wall is the reference's own, or (`has_carried` false) no part of it took over
-/// triangles.
+/// Returns the reference's envelope from which the envelope of this wall may start. Returns null and reports the reason if the reference has no envelope of a
+/// wall with these triangles, or if its options differ. Returns null without a report if the wall is the reference's own, or if no part of it took over
+/// triangles (`has_carried` false).
 const KeptEnvelope* find_start(const TriMesh& wall, volmesh::EnvelopeOptions options, const std::string& what, bool has_carried, const Reuse& reuse,
                                const RunContext& context) {
   const ContentKey connectivity = connectivity_of(wall);
@@ -179,7 +179,7 @@ volmesh::Envelope wall_from_reference(const volmesh::LayerBase& base, const volm
     return envelope;
   }
   const std::string what = envelope_of(base.wall, reference);
-  bool has_carried = false;  // the wall is the part of a surface that has layers: parts need not have its triangles
+  bool has_carried = false;  // the wall is the part of the surface that has layers; its triangles may belong to none of the parts
   for (CarriedPart& part : reference.all_carried()) has_carried = part.has_envelope = true;
   const KeptEnvelope* from = find_start(base.wall, options, what, has_carried, reuse, context);
   if (from == nullptr) return volmesh::build_envelope(base, options, collider, context);

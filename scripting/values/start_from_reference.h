@@ -1,4 +1,4 @@
-// Stages of a case in a series with a reference: the reference itself stores them, the other cases start from them if that is proved to be valid.
+// Stages of a case in a series with a reference. The reference itself stores them; the other cases start from them if that is proved to be valid.
 #pragma once
 
 #include <functional>
@@ -15,14 +15,15 @@
 
 namespace sterna::scripting {
 
-/// Returns `ordinary` with these changes: parts that are deformed parts of the reference take over its triangles (surfmesh::carry_mesh), and the reference's
-/// own are stored. In these cases a part is meshed by `ordinary`: its geometry is the reference's; or, which is reported, its structure, its options, or sizes
-/// by location differ, or the mesh taken over would not be good. \param key of the result of `ordinary`, for the cache; may be empty
+/// Returns `ordinary` with two changes: parts that are deformed parts of the reference take over its triangles (surfmesh::carry_mesh), and the reference's own
+/// triangles are stored. A part is meshed by `ordinary` if its geometry is the reference's. It is also meshed by `ordinary`, which is reported, if its
+/// structure, its options, or sizes by location differ, or if the mesh taken over would not be good. \param key key of the result of `ordinary`, for the cache;
+/// may be empty
 PartMesher starting_mesher(const Reuse& reuse, const PartMesher& ordinary,
                            const std::function<std::optional<ContentKey>(const PartTask&, const RunContext&)>& key = {});
 
-/// Returns makers of envelopes that start from the reference's if the wall has its triangles (volmesh::warm_start), and store the reference's own. `ordinary`
-/// makes the envelope of a part in all other cases, under `key` in the cache.
+/// Returns makers of envelopes. An envelope starts from the reference's if the wall has the reference's triangles (volmesh::warm_start); the reference's own
+/// envelopes are stored. In all other cases `ordinary` makes the envelope of a part, under `key` in the cache.
 /// \pre reuse.reference
 volmesh::Makers starting_envelopes(volmesh::Makers makers, const Reuse& reuse, const volmesh::PartEnvelopeMaker& ordinary,
                                    const std::function<ContentKey(const volmesh::PartEnvelopeTask&, const RunContext&)>& key);
@@ -31,11 +32,11 @@ volmesh::Makers starting_envelopes(volmesh::Makers makers, const Reuse& reuse, c
 /// called after the wall's envelope was made.
 void tell_other_envelopes(const std::vector<volmesh::PlacedPart>& parts, const Reuse& reuse, const RunContext& context);
 
-/// Returns the key of a result that also depends on the reference; unchanged without a reference.
+/// Returns the key of a result that also depends on the reference; without a reference the key is unchanged.
 std::optional<ContentKey> beside_reference(const std::optional<ContentKey>& key, const Reuse& reuse, const RunContext& context);
 
-/// cached() of stage_cache.h, for a result beside which data is stored or reported (ReferenceUse): a result from the cache restores the same data. `key` is
-/// without the reference.
+/// Does the same as cached() of stage_cache.h for a result beside which data is stored or reported (ReferenceUse): a result from the cache restores the same
+/// data. \p key does not include the reference
 template <class T>
 T cached_with_reference(const Reuse& reuse, std::string_view stage, std::string_view what, const std::optional<ContentKey>& key, const RunContext& context,
                         const std::function<T()>& make, const std::function<bool(const T&)>& may_keep = {});
@@ -51,7 +52,7 @@ T cached_with_reference(const Reuse& reuse, std::string_view stage, std::string_
   const ReferenceUse::Mark mark = reference.mark();
   std::optional<ReferenceUse::Beside> found;
   const auto make_here = [&] {
-    found.reset();  // data of an entry that turned out to be damaged
+    found.reset();  // the data of the entry are damaged
     return make();
   };
   const auto write = [&](ByteSink& sink, const T& value) {

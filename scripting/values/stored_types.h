@@ -1,4 +1,4 @@
-// The structs that go into keys and entries of the cache, with the number of their members. A wrong number does not compile: see members.h.
+// The structs that go into keys and entries of the cache, with their number of members. A wrong number does not compile; see members.h.
 #pragma once
 
 #include "geom/mesh/check.h"
@@ -211,7 +211,7 @@ inline constexpr std::size_t k_members<Aircraft> = 12;
 
 namespace detail {
 
-/// A struct with a base: its members are not those of one class.
+/// A struct with a base class: its members are spread over two classes.
 template <>
 struct Archive<volmesh::Envelope> {
   static void write(ByteSink& sink, const volmesh::Envelope& value) {

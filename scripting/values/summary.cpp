@@ -19,8 +19,8 @@ namespace sterna::scripting {
 namespace {
 
 constexpr double k_bytes_per_mb = 1e6;
-constexpr double k_least_told = 0.5;          ///< seconds of a stage from which its busy share is reported
-constexpr std::size_t k_listed_troubles = 3;  ///< measures that miss a limit in the summary; a finished mesh is summarised in a dozen lines
+constexpr double k_least_told = 0.5;          ///< a stage reports its busy share only if it takes at least this many seconds
+constexpr std::size_t k_listed_troubles = 3;  ///< number of measures that miss a limit in the summary; the summary of a finished mesh has a dozen lines
 
 std::string counted(std::int64_t n, std::string_view one, std::string_view many) { return count_text(n) + " " + std::string(n == 1 ? one : many); }
 
@@ -48,7 +48,8 @@ std::string missed_limit_text(const GateResult& gate, double value) {
 /// Returns the value at the worst location that is not forced by the input surface; the worst of all if there is none.
 double told_value(const GateResult& gate) { return gate.places.empty() ? gate.worst : gate.places.front().value; }
 
-/// Returns the factor by which the worst location misses the strictest kind of limit: the sort criterion of problems. Infinite if a lower limit meets 0.
+/// Returns the factor by which the worst location misses the strictest kind of limit, by which problems are sorted. Infinite if a value of 0 misses a lower
+/// limit.
 double excess_of(const GateResult& gate) {
   const double value = told_value(gate);
   const double limit = missed_limit(gate, value).second;
@@ -56,7 +57,7 @@ double excess_of(const GateResult& gate) {
   return value > 0.0 && limit > 0.0 ? ratio : std::numeric_limits<double>::infinity();
 }
 
-/// Returns why the layer closest to a location is lower than its target; empty if it has its full height, or the reason is unknown.
+/// Returns the reason why the layer closest to a location is lower than its target. Empty if it has its full height, or if the reason is unknown.
 std::string_view lowered_at(const HybridMesh& mesh, const Point& place) {
   const LayerBlock& layers = mesh.layers;
   if (layers.n_lines() == 0 || mesh.request.reason.size() != layers.n_lines() || mesh.request.target_height.size() != layers.n_lines()) return {};
@@ -71,7 +72,7 @@ std::string_view lowered_at(const HybridMesh& mesh, const Point& place) {
   return reason > 0 && reason < mesh.request.reasons.size() ? std::string_view(mesh.request.reasons[reason]) : std::string_view();
 }
 
-/// Returns the remedy at the worst location of a measure. Where a layer is compressed, more layers worsen the measure.
+/// Returns the remedy at the worst location of a measure. At a compressed layer this is not a larger number of layers, which would worsen the measure.
 std::string remedy_at(const GateResult& gate, const HybridMesh* mesh) {
   const bool is_of_height = gate.measure == Measure::interface_height || gate.measure == Measure::interface_volume || gate.measure == Measure::stack_growth;
   if (!mesh || !is_of_height || gate.places.empty()) return std::string(remedy_of(gate.measure));
@@ -92,7 +93,7 @@ std::string trouble_text(const GateResult& gate, const HybridMesh* mesh) {
   return text + "; " + remedy_at(gate, mesh) + "\n";
 }
 
-/// Returns the measures that miss a limit, first those that FAIL, then those that warn, the worst of each first.
+/// Returns the measures that miss a limit: first those that FAIL, then those that warn, each group with the worst first.
 std::vector<const GateResult*> troubles_of(const CheckReport& report) {
   std::vector<const GateResult*> troubles;
   for (const GateState state : {GateState::fail, GateState::warn}) {
@@ -105,7 +106,7 @@ std::vector<const GateResult*> troubles_of(const CheckReport& report) {
   return troubles;
 }
 
-/// Returns the worst few of them. The others: -v, `sterna check`, manifest, report page.
+/// Returns the worst few problems. The others are available by -v, `sterna check`, the manifest and the report page.
 std::string troubles_text(const CheckReport& report, const HybridMesh* mesh) {
   const std::vector<const GateResult*> troubles = troubles_of(report);
   std::string text;
@@ -126,7 +127,7 @@ std::string gate_names(const CheckReport& report, const IsMeant& is_meant) {
   return names;
 }
 
-/// Returns the time outside the engine: that of this program.
+/// Returns the time that this program took without the engine.
 double rest_seconds(const MeshValue& mesh, const RunMeasure& measure) { return measure.wall_seconds - mesh.origin->tetra_engine_seconds; }
 
 }  // namespace

@@ -1,4 +1,4 @@
-// Reports of a run: one-paragraph descriptions of surfaces and meshes, the closing summary, and the same as JSON for benchmarks.
+// Reports of a run: one-paragraph descriptions of surfaces and meshes, the closing summary, and the summary as JSON for benchmarks.
 #pragma once
 
 #include <filesystem>
@@ -20,9 +20,9 @@ std::string change_text(std::string_view done, const std::vector<std::string>& m
 /// Returns "HybridMesh: 248 181 nodes, 383 760 prisms, 131 799 tetrahedra, 3 patches, VALID".
 std::string describe(const MeshValue& mesh);
 
-/// Measured by the caller around a whole run; log and statistics only.
+/// Measures that the caller takes around a whole run. They are used only for log and statistics.
 struct RunMeasure {
-  double wall_seconds = 0.0;  ///< from opening the first input to the last renamed output
+  double wall_seconds = 0.0;  ///< from opening the first input to renaming the last output
   std::vector<StageTime> stages;
   int threads = 0;
 };
@@ -32,7 +32,7 @@ double peak_memory_bytes();
 
 /// Returns "cell-centred: FAIL at 3 places (12 of 3.2 M cells): G9 OF; node-centred: pass", "quality not checked".
 std::string quality_text(const CheckReport& report);
-/// Returns "FAIL: G9 OF", "pass": the worst state of the gates and the gates in this state.
+/// Returns "FAIL: G9 OF" or "pass": the worst state of the gates, and the gates in this state.
 std::string worst_gates_text(const CheckReport& report);
 /// Returns "skew 63.1 deg": the measure that the summary names first and its worst value for these gates; empty if all limits are met.
 std::string worst_quality_text(const CheckReport& report);
@@ -43,15 +43,15 @@ std::string worst_quality_text(const CheckReport& report);
 std::string summary_text(const MeshValue& mesh, Consumers consumers = {});
 /// Returns "wrote a.su2, a.vtu, each with a manifest beside it (.json)".
 std::string wrote_text(const std::vector<std::filesystem::path>& names);
-/// Returns the output of a script's mesh:check(), a few lines: verdict, sizes and volume; with `tells_troubles` the worst three measures; violations with their
-/// locations.
+/// Returns the output of a script's mesh:check() in a few lines: verdict, sizes and volume; with `tells_troubles` also the worst three measures; violations
+/// with their locations.
 std::string check_summary_text(const CheckReport& report, bool tells_troubles);
-/// Returns one line: seconds in the tetrahedra engine and the rest, memory.
+/// Returns one line with the seconds in the tetrahedra engine, the other seconds, and the memory.
 /// \pre mesh.origin
 std::string measure_text(const MeshValue& mesh, const RunMeasure& measure);
 /// Returns one line: seconds of each stage, and the utilisation of the threads.
 std::string stages_text(const RunMeasure& measure);
-/// Returns both as JSON, schema "sterna-stats-1".
+/// Returns the report and the measures as JSON, schema "sterna-stats-1".
 /// \pre mesh.origin
 std::string stats_json(const MeshValue& mesh, const RunMeasure& measure);
 

@@ -72,7 +72,7 @@ Json quality_json(const surfmesh::SurfaceMeshReport& report) {
       {.code = ErrorCode::file_malformed, .attempted = "reading " + file.name + ".json", .problem = problem, .hint = "delete it, or write the surface again"});
 }
 
-/// Returns true if the normals point into the fluid: inwards in total.
+/// Returns true if the normals of a surface point into the fluid, that is, inwards in total.
 bool encloses_fluid(const TriMesh& mesh) {
   if (mesh.points.empty()) return false;
   const Point origin = mesh.points[VertexId(0)];

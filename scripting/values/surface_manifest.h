@@ -12,7 +12,7 @@
 namespace sterna::scripting {
 
 /// Returns the manifest, schema sterna-surface-1: inputs with hashes, options, patches, sizes, quality with worst locations (angles in degrees, as in reports),
-/// the hash of `written`. Quality is that of surface_mesh; without it only the largest turn, if known. \pre `written` is the finished file
+/// and the hash of `written`. Quality is that of surface_mesh; other surfaces have only the largest turn, if known. \pre `written` is the finished file
 /// \throws Error of io
 std::string surface_manifest_json(const SurfaceValue& surface, const std::filesystem::path& written);
 
@@ -26,7 +26,7 @@ void write_surface_manifest(const SurfaceValue& surface, const std::filesystem::
 struct KnownSurface {
   std::optional<double> smooth_angle;      ///< rad: SurfaceMeshReport::max_smooth_angle
   std::map<std::string, PatchKind> kinds;  ///< kinds of its patches by name: surface formats do not hold them
-  bool encloses_fluid = false;             ///< its outermost part has inward normals
+  bool encloses_fluid = false;             ///< the outermost part of the surface has inward normals
   std::vector<volmesh::PatchRule> layers;  ///< SurfaceValue::layers
   std::vector<std::string> changes;        ///< SurfaceValue::changes
   std::vector<std::string> changed;        ///< SurfaceValue::changed
@@ -35,7 +35,7 @@ struct KnownSurface {
 /// \throws Error(file_malformed) if the manifest is of sterna but its contents are invalid
 std::optional<KnownSurface> read_surface_manifest(const InputPath& file, const std::string& hash, const RunContext& context);
 
-/// Sets kinds by names of patches; names not in `kinds` keep theirs.
+/// Sets kinds by names of patches. Patches that are not in `kinds` keep their kind.
 void set_kinds(Column<PatchId, Patch>& patches, const std::map<std::string, PatchKind>& kinds);
 
 }  // namespace sterna::scripting

@@ -1,5 +1,6 @@
 // Numbers as users type them on the command line: options, --set, rules of patches, sources, discs, farfields, flow conditions, gates and cases.
-// This is the only definition of the unit of a number without a unit: metres, degrees, kelvin, seconds, bytes. Scripts use SI and do not call these functions.
+// Only this file defines the unit of a number that is given without a unit: metres, degrees, kelvin, seconds, bytes. Scripts use SI and do not call these
+// functions.
 #pragma once
 
 #include <string_view>

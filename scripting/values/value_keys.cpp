@@ -8,7 +8,7 @@
 namespace sterna::scripting {
 namespace {
 
-/// Adds all data that are no options of a schema, except sources, which are used only after the envelope. The members are listed so that a new one does not
+/// Adds all data that are no options of a schema, except sources, which are used only after the envelope. All members are listed, so that a new member does not
 /// compile until it is in a key.
 void add_rest(KeyMaker& maker, const volmesh::MeshCase& options) {
   const auto& [first_heights, patches, farfield_surface, sources, discs, wakes, periodic, smooth_angle, parts] =
@@ -31,7 +31,7 @@ std::optional<ContentKey> key_of(const SurfaceValue& surface) {
   if (surface.model_wall && !surface.model_wall_key) return std::nullopt;
   KeyMaker maker("surface");
   const auto& [mesh, report, options, inputs, union_options, repair_options, wrap_options, remesh_options, recipe, mesh_report, smooth_angle, layers,
-               model_wall, parts, model_wall_key, changes, changed] = surface;  // all members: a new one does not compile
+               model_wall, parts, model_wall_key, changes, changed] = surface;  // lists all members, so that a new member does not compile until it is handled
   maker.add(mesh)
       .add(report)
       .add(options)
@@ -52,16 +52,16 @@ std::optional<ContentKey> key_of(const SurfaceValue& surface) {
 }
 
 ContentKey key_of(const ComponentValue& component) {
-  const auto& [kind, shape, intake, exhaust, deflections] = component;  // all members: a new one does not compile
+  const auto& [kind, shape, intake, exhaust, deflections] = component;  // lists all members, so that a new member does not compile until it is handled
   return KeyMaker("component").add(kind).add(shape).add(intake).add(exhaust).add(deflections).key();
 }
 
 ContentKey envelope_options_key(const volmesh::MeshCase& options) {
   volmesh::MeshCase named = options;
-  named.limits = {};  // limits decide if the envelope is made, not its result
+  named.limits = {};  // limits decide if the envelope is made, but do not change its result
   KeyMaker maker("envelope options");
   maker.add(volmesh::options_of(named, volmesh::k_envelope_step));
-  if (!options.discs.empty()) maker.add(options.size.size_growth);  // determines their triangles
+  if (!options.discs.empty()) maker.add(options.size.size_growth);  // the growth of sizes determines the triangles of discs
   add_rest(maker, options);
   return maker.key();
 }
@@ -78,7 +78,7 @@ ContentKey key_of(const volmesh::EnvelopeStage& stage) { return KeyMaker("envelo
 
 ContentKey key_of(const volmesh::FilledStage& stage) {
   KeyMaker maker("filled");
-  const volmesh::TetraResult& tets = stage.tets;  // without measurements of the engine
+  const volmesh::TetraResult& tets = stage.tets;  // without the measurements of the engine
   maker.add(stage.split_wall)
       .add(stage.envelope)
       .add(stage.layers)
@@ -96,7 +96,7 @@ std::optional<ContentKey> key_of(const EnvelopeValue& envelope) {
   const std::optional<ContentKey> wall = key_of(*envelope.wall);
   if (!wall) return std::nullopt;
   const auto& [wall_handle, options, stage, step, classes, n_sources_in_file] =
-      envelope;  // all members: a new one does not compile; classes follow from the rest
+      envelope;  // lists all members, so that a new member does not compile until it is handled; classes follow from the others
   return KeyMaker("envelope value").add(*wall).add(volume_options_key(options)).add(key_of(stage)).add(to_string(step)).key();
 }
 

@@ -25,16 +25,16 @@ struct TetrahedraValue;
 ContentKey key_of(const TriMesh& mesh);
 /// Returns the key of all settings of surface_mesh except the function of the location.
 ContentKey key_of(const SurfaceRecipe& recipe);
-/// Returns the key of mesh, reports, options, inputs by hash, recipe, and the model behind the mesh if there is one. Returns nothing if the model's inputs are
-/// unknown.
+/// Returns the key of a surface: mesh, reports, options, inputs by hash, recipe, and the model behind the mesh if there is one. Returns nothing if the model's
+/// inputs are unknown.
 std::optional<ContentKey> key_of(const SurfaceValue& surface);
 /// Returns the key of the component in its current state.
 ContentKey key_of(const ComponentValue& component);
 
-/// Returns the key of the inputs of an envelope beside its wall: options of envelope and farfield, rules of patches, discs, the farfield's surface, the smooth
-/// angle.
+/// Returns the key of the inputs of an envelope besides its wall: options of envelope and farfield, rules of patches, discs, the farfield's surface, and the
+/// smooth angle.
 ContentKey envelope_options_key(const volmesh::MeshCase& options);
-/// Returns the key of all inputs of a volume mesh beside its wall, except the true surface.
+/// Returns the key of all inputs of a volume mesh besides its wall, except the true surface.
 ContentKey volume_options_key(const volmesh::MeshCase& options);
 ContentKey key_of(const volmesh::EnvelopeStage& stage);
 ContentKey key_of(const volmesh::FilledStage& stage);

@@ -31,7 +31,7 @@ namespace {
 
 // Fractions of the progress of read_wall; reading is bound by the disk, stitching by the intersection test.
 constexpr double k_wall_read_end = 0.3;
-/// Progress of unite_surfaces; cutting and remeshing take most of its time.
+/// Progress at the ends of the steps of unite_surfaces. Cutting and remeshing take most of its time.
 constexpr double k_union_read_end = 0.2;
 
 void require_output(const std::filesystem::path& path, io::FormatUse use) {
@@ -43,7 +43,8 @@ void require_output(const std::filesystem::path& path, io::FormatUse use) {
   io::AtomicFile probe(path);  // reports why the file cannot be written; removed at once
 }
 
-/// Rejects a volume mesh given as a wall: its surface has wall, planes and farfield, and the aircraft would become a cavity of a body as large as the domain.
+/// Rejects a volume mesh that is given as a wall. Its surface has wall, planes and farfield, so the aircraft would become a cavity of a body as large as the
+/// domain.
 void require_surface(const SurfaceSoup& soup, const InputPath& file, const surfmesh::StitchOptions& options) {
   if (soup.n_cells == 0 || options.take_boundary) return;
   std::string names;
@@ -97,10 +98,10 @@ SurfaceValue join_wall(const WallFiles& files, const RunContext& context) {
 }
 
 void report_wall(const SurfaceValue& wall, const RunContext& context) {
-  // The unit is always reported: a factor of 1000 is unnoticed until the solver runs.
+  // The unit is always reported, because an error by a factor of 1000 would be noticed only when the solver runs.
   const double unit = wall.options.unit;
   context.info(describe(wall) + fmt::format(" (1 unit of the file = {:g} m)", unit));
-  constexpr double k_tiny = 0.1, k_huge = 1000.0;  // m: shorter than models in tunnels, longer than ships
+  constexpr double k_tiny = 0.1, k_huge = 1000.0;  // m; models in tunnels are longer than k_tiny, ships are shorter than k_huge
   if (const double length = body_length(wall.mesh); length > 0.0 && (length < k_tiny || length > k_huge))
     context.info(fmt::format("hint: the surface is {:.4g} m long: is 1 unit of the file {:g} m? (unit = mm, --unit inch ...)", length, unit));
 }
@@ -177,7 +178,8 @@ void write_mesh_alone(const HybridMesh& mesh, const std::filesystem::path& path,
   const io::Format& format = io::format_to_write(path, io::FormatUse::write_volume, format_name);
   const Numbering numbering = numbering_for(format, options);
   if (numbering == Numbering::lines || format.name == "sterna") return io::write_volume_file(mesh, path, context, format_name);
-  // A common numbering of all cells has its own order, which needs the columns. The order of nodes hardly affects solvers with values in cells.
+  // If all cells share one numbering, the format orders them itself, which requires the columns. The order of nodes hardly affects solvers with values in
+  // cells.
   const HybridMesh numbered = renumbered(mesh, format.write_numbered ? Numbering::both : numbering, context);
   io::write_volume_file(numbered, path, context, format_name, numbering);
 }
@@ -186,7 +188,7 @@ void write_mesh(const MeshValue& mesh, const std::filesystem::path& given, const
   const std::filesystem::path path = given.has_filename() ? given : given.parent_path();  // a folder may end in a slash
   const StageTimer timer(context, "write");
   const RunContext part = context.part("write " + path.filename().string(), 0.0, 1.0);
-  if (path.extension() == ".sterna") {  // also holds the known data of the mesh
+  if (path.extension() == ".sterna") {  // a .sterna file also holds the known data of the mesh
     io::write_sterna({.mesh = &mesh.mesh,
                       .manifest = manifest_json(mesh, path, context.seed()),
                       .certificate = mesh.origin ? certificate_json(mesh.origin->certificate) : std::string(),
@@ -195,7 +197,7 @@ void write_mesh(const MeshValue& mesh, const std::filesystem::path& given, const
   } else if (const io::Format& format = io::format_to_write(given, io::FormatUse::write_volume, {}); format.name == "OpenFOAM") {
     write_zoned_foam(mesh, given, numbering_for(format, options), part);
   } else {
-    write_mesh_alone(mesh.mesh, given, {}, options, part);  // its slash marks a folder that is still to be created
+    write_mesh_alone(mesh.mesh, given, {}, options, part);  // the given path, because its slash marks a folder that is still to be created
   }
   write_manifest(mesh, path, context);
 }

@@ -1,4 +1,4 @@
-// The functions behind both the Lua verbs and the command line: values that can be printed, checked, written and passed to the next verb.
+// The functions behind both the Lua verbs and the command line. Their values can be printed, checked, written and passed to the next verb.
 #pragma once
 
 #include <filesystem>
@@ -39,9 +39,9 @@ struct InputFile {
 /// The request to surface_mesh.
 struct SurfaceRecipe {
   surfmesh::SurfaceMeshOptions options;
-  std::vector<surfmesh::PatchSurfaceOptions> patches;  ///< the last that matches a face applies
-  std::vector<volmesh::SizeSource> sources;            ///< in space
-  std::string sources_text;                            ///< the sources, and whether there was a function, as JSON: stored in manifests; empty for none
+  std::vector<surfmesh::PatchSurfaceOptions> patches;  ///< rules of faces; the last rule that matches a face applies
+  std::vector<volmesh::SizeSource> sources;            ///< sources in space
+  std::string sources_text;                            ///< JSON of the sources, and if there was a function, for manifests; empty if there is neither
 };
 
 /// A surface with its origin.
@@ -55,18 +55,19 @@ struct SurfaceValue {
   std::optional<surfmesh::WrapOptions> wrap_options = {};       ///< set for a surface made by wrap
   std::optional<surfmesh::RemeshOptions> remesh_options = {};   ///< set for a surface whose triangles were made by remesh
   std::optional<SurfaceRecipe> recipe = {};                     ///< set for a surface made by surface_mesh
-  std::optional<surfmesh::SurfaceMeshReport> mesh_report = {};  ///< likewise, unless the surface was read from a file
-  std::optional<double> smooth_angle = {};  ///< rad, of surface_mesh or of the manifest beside the file: the largest turn where the surface is smooth
+  std::optional<surfmesh::SurfaceMeshReport> mesh_report = {};  ///< set for a surface made by surface_mesh, unless it was read from a file
+  std::optional<double> smooth_angle = {};  ///< rad; largest turn where the surface is smooth, from surface_mesh or from the manifest beside the file
   std::vector<volmesh::PatchRule> layers =
-      {};  ///< layer rules of the model's makers for patches, in order: the last of a name applies, the user's own come after
+      {};  ///< layer rules for patches, set by the makers of the model, in order. The last rule for a name applies, and the user's own rules come after these
   std::shared_ptr<const surfmesh::ModelWall> model_wall = {};  ///< set for a surface made by surface_mesh in this run: gives the positions of new vertices
   std::vector<volmesh::PlacedPart> parts = {};    ///< parts meshed or read elsewhere and moved to their locations; in ascending order of their triangles
   std::optional<ContentKey> model_wall_key = {};  ///< key of the data of model_wall, for caches
-  std::vector<std::string> changes = {};          ///< differences from the surface of the files: one sentence each, first in summaries and manifests
-  std::vector<std::string> changed = {};          ///< figures before and after each step that changed it, JSON objects (geom/mesh/compare_geometry.h)
+  std::vector<std::string> changes = {};          ///< differences from the surface of the files, one sentence each; they come first in summaries and manifests
+  std::vector<std::string> changed = {};          ///< figures before and after each step that changed the surface, as JSON objects
+                                                  ///< (geom/mesh/compare_geometry.h)
 };
 
-/// How a volume mesh was made in this run; absent for a mesh that was read from a file.
+/// Describes how a volume mesh was made in this run. Absent for a mesh that was read from a file.
 struct MeshOrigin {
   surfmesh::StitchOptions surface_options;
   std::optional<UnionOptions> union_options;
@@ -96,8 +97,8 @@ struct MeshValue {
   HybridMesh mesh;
   std::vector<InputFile> inputs;
   std::optional<MeshOrigin> origin;
-  mutable std::optional<CheckReport> check;  ///< report with the default options, always present for a mesh made here; then of the last complete check
-                                             ///< requested, so that manifests and reports have its findings
+  mutable std::optional<CheckReport> check;  ///< report of a check. For a mesh made here it is always present, with the default options. A complete check that
+                                             ///< is requested later replaces it, so that manifests and reports have its findings
   std::set<std::string> unknown_kinds = {};  ///< patches of a file whose kind is given neither by the file, nor by a manifest, nor by their name
 };
 
@@ -111,8 +112,8 @@ using UnionItem = std::variant<SurfaceHandle, InputPath>;
 /// \throws Error of read_wall and of unite_meshes.
 SurfaceValue unite_surfaces(std::span<const UnionItem> items, double unit, const UnionOptions& options, const RunContext& context);
 
-/// Reads a volume mesh, with the data of the manifest beside it (mesh_manifest.h); patches of unknown kind are a warning. Every command and verb that takes a
-/// volume mesh reads it here. `incomplete`: treatment of boundary faces that the file lacks.
+/// Reads a volume mesh, with the data of the manifest beside it (mesh_manifest.h). Patches of unknown kind give a warning. Every command and verb that takes a
+/// volume mesh reads it here. `incomplete` decides how boundary faces that the file lacks are treated.
 /// \throws Error of io, file_malformed of a manifest.
 MeshValue read_mesh(const InputPath& file, const RunContext& context, io::Incomplete incomplete = io::Incomplete::kept);
 
@@ -120,7 +121,7 @@ MeshValue read_mesh(const InputPath& file, const RunContext& context, io::Incomp
 /// \throws Error unsupported_format or write_failed if a mesh of this name cannot be written: unknown extension, no such folder
 void require_mesh_output(const std::filesystem::path& path);
 
-/// Writes the mesh and then its manifest "<path>.json"; a .sterna file holds manifest, certificate and quality, too. Each file is written atomically. A .sterna
+/// Writes the mesh and then its manifest "<path>.json". A .sterna file also holds manifest, certificate and quality. Each file is written atomically. A .sterna
 /// file keeps the numbers of nodes and cells, regardless of the options.
 /// \throws Error of io.
 void write_mesh(const MeshValue& mesh, const std::filesystem::path& path, const WriteOptions& options, const RunContext& context);
@@ -133,7 +134,8 @@ void write_mesh_alone(const HybridMesh& mesh, const std::filesystem::path& path,
 /// Checks the output path before the work starts.
 /// \throws Error unsupported_format or write_failed if a surface cannot be written to a file of this name
 void require_surface_output(const std::filesystem::path& path);
-/// Writes a surface; format by extension. Also writes its manifest "<path>.json" if there are data that the format cannot hold (has_surface_manifest).
+/// Writes a surface in the format given by the extension. Also writes its manifest "<path>.json" if there are data that the format cannot hold
+/// (has_surface_manifest).
 /// \throws Error of io.
 void write_surface(const SurfaceValue& surface, const std::filesystem::path& path, const RunContext& context);
 

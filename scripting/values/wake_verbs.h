@@ -14,14 +14,15 @@ namespace sterna::scripting {
 /// The verb wake_sheet. Its value is a table with the field "shape".
 std::span<const ScriptVerb> wake_verbs();
 
-/// Reads the entry "wakes" of a table: one value of wake_sheet{...}, a list of them, or "auto": behind all trailing edges. Notes problems with the reader.
+/// Reads the entry "wakes" of a table: one value of wake_sheet{...}, a list of them, or "auto" for sheets behind all trailing edges. Notes problems with the
+/// reader.
 std::vector<volmesh::WakeSheet> read_wakes(TableReader& reader, const ScriptCall& call);
 
 /// Parses wake sheets of the command line, "wing=main* length=2 growth=1.2 direction=1,0,0", or "auto".
 /// \throws Error(bad_argument, unknown_option)
 volmesh::WakeSheet wake_sheet_of_text(const std::string& text);
 
-/// Returns wake sheets as a JSON list, for manifests and the files of stages; and the reverse.
+/// wakes_json returns wake sheets as a JSON list, for manifests and the files of stages; the second function reads it.
 /// \throws Error(bad_argument) if the text is no such list
 std::string wakes_json(const std::vector<volmesh::WakeSheet>& wakes);
 std::vector<volmesh::WakeSheet> wakes_of_json(const std::string& text);

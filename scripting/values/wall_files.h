@@ -1,4 +1,4 @@
-// A wall in two steps: its files are read, and then joined, so that defects that prevent joining can be inspected without reading twice.
+// Reads a wall in two steps: reading its files, and joining them. Defects that prevent joining can thus be inspected without reading twice.
 #pragma once
 
 #include <map>

@@ -13,7 +13,7 @@
 namespace sterna::scripting {
 namespace {
 
-/// Fraction of the progress; reading is bound by the disk.
+/// Progress after reading, which is bound by the disk.
 constexpr double k_wrap_read_end = 0.1;
 constexpr const char* k_wrap_stage = "wrap";
 
@@ -70,7 +70,7 @@ SurfaceValue wrap_surfaces(std::span<const UnionItem> items, const surfmesh::Wra
         return wall;
       }));
   SurfaceValue wall = with_mesh(read, std::move(made.mesh), std::move(made.report));
-  wall.smooth_angle.reset();  // angle of the triangles before
+  wall.smooth_angle.reset();  // the angle belongs to the former triangles
   wall.wrap_options = used;
   wall.changes.push_back(change_text("wrapped", wall.report.messages));
   note_change(wall, compare_geometry(surfmesh::mesh_as_read(read.soups, read.wall.options), wall.mesh, "wrap", context), context);

@@ -1,4 +1,4 @@
-// Surfaces and files wrapped to one closed surface, taken from a cache if present.
+// Wraps surfaces and files to one closed surface, from a cache if present.
 #pragma once
 
 #include <functional>
@@ -13,14 +13,14 @@
 namespace sterna::scripting {
 
 /// Wraps the items. Files are read with the options' unit; surfaces are in metres. Rules of layers and kinds of patches in manifests beside the files are kept.
-/// `look` receives the whole report; then nothing is taken from a cache.
+/// `look` receives the whole report; if it is set, nothing is taken from a cache.
 /// \throws Error of io and of surfmesh::wrap_surface
 SurfaceValue wrap_surfaces(std::span<const UnionItem> items, const surfmesh::WrapOptions& options, const Reuse& reuse, const RunContext& context,
                            const std::function<void(const surfmesh::WrapReport&)>& look = {});
 
-/// Returns the closed-over and leaking regions, for a VTU.
+/// Returns the regions that were closed over and the leaking regions, for a VTU.
 TroubleGeometry closed_facets(const surfmesh::WrapReport& report);
-/// Returns the sizes used, closures and leaks with location and size, distances, as JSON.
+/// Returns, as JSON, the sizes that were used, closures and leaks with location and size, and distances.
 std::string wrap_json(const surfmesh::WrapReport& report);
 
 }  // namespace sterna::scripting

@@ -1,4 +1,4 @@
-// Bodies: fuselage, nacelle, pylon, boom, fairing, body of revolution, sting. Each table becomes a Body (a pylon: a Wing) of geom/model/aircraft.h.
+// Verbs of bodies: fuselage, nacelle, pylon, boom, fairing, body of revolution, sting. Each table becomes a Body (a pylon: a Wing) of geom/model/aircraft.h.
 #include <algorithm>
 #include <array>
 #include <cmath>
@@ -159,7 +159,7 @@ EndCap cap(const std::string& shape, double height) { return {CapShape::dome, sh
 
 BodyFrame point_frame(const Point& at, std::string name) { return {.name = std::move(name), .center = at, .shape = FrameShape::loop, .loop = {at}}; }
 
-/// Sets the points {y, z} of the right half relative to the centre, bottom to top, in metres, as a frame's own points.
+/// Sets the points {y, z} of the right half, from bottom to top, as the frame's own points. They are given in metres relative to the centre.
 void set_points(BodyFrame& frame, const std::vector<std::vector<double>>& rows, TableReader& reader, const std::string& where) {
   double half_width = 0.0, low = rows.front()[1], high = rows.back()[1];
   for (const std::vector<double>& row : rows) half_width = std::max(half_width, row[0]);

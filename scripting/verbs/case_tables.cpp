@@ -13,7 +13,7 @@
 namespace sterna::scripting {
 namespace {
 
-/// Takes area, mean chord and quarter-chord point of the wing called `name`, or of the largest. Returns the problem; empty: none.
+/// Takes area, mean chord and quarter-chord point of the wing called `name`, or of the largest wing. Returns the problem; empty if there is none.
 std::string take_wing(const std::vector<WingReference>& wings, const std::string& name, const std::string& why_none, CaseReference& reference) {
   const WingReference* chosen = nullptr;
   std::string names;

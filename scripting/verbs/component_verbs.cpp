@@ -1,4 +1,4 @@
-// aircraft{}, and the common parts of all components: methods, fields, a line of description.
+// aircraft{}, and the common parts of all components: methods, fields, and a line of description.
 #include "scripting/verbs/component_verbs.h"
 #include "scripting/lua/component_value.h"
 
@@ -54,7 +54,7 @@ ScriptValue make_aircraft_verb(const ScriptCall& call) {
   const ScriptTable table = table_argument(call, 0, k_aircraft_usage);
   AircraftOptions o;
   UniteOptions unite;
-  OptionTable schema = sterna::options_of(o);  // in one table: `unite` is an option and the name of a stage
+  OptionTable schema = sterna::options_of(o);  // all options are in one table, because `unite` is an option and also the name of a stage
   for (Option& option : sterna::options_of(unite)) schema.push_back(std::move(option));
   TableReader reader(table, call.attempted());
   AircraftParts parts;

@@ -1,4 +1,4 @@
-// Verbs that describe components of an aircraft - wing{}, fuselage{}, nacelle{} and so on - and combine them: aircraft{}.
+// Verbs that describe components of an aircraft (wing{}, fuselage{}, nacelle{} and so on), and the verb that combines them: aircraft{}.
 #pragma once
 
 #include <span>

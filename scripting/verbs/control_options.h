@@ -22,7 +22,7 @@ struct DeflectOptions {
 
 OtherSide other_side_of(const std::string& choice);
 
-/// Reads { Elevator = 5*deg, ["Flap*"] = { angle = 20*deg, gap = "open" } }: settings in the order of the names; notes problems.
+/// Reads { Elevator = 5*deg, ["Flap*"] = { angle = 20*deg, gap = "open" } }. Returns the settings in the order of the names; notes problems.
 std::vector<ControlSetting> read_control_settings(const ScriptTable& table, const std::string& where, TableReader& reader);
 /// Returns the help on the content of an entry's table.
 std::string control_settings_help();

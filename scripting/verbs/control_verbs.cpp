@@ -1,4 +1,4 @@
-// wing:deflect{} and wing:control{}, and deflections of control surfaces described by files.
+// wing:deflect{} and wing:control{}, and deflections of control surfaces that are described by files.
 #include <fmt/format.h>
 
 #include <algorithm>
@@ -73,7 +73,7 @@ ScriptValue change_wing(const ScriptCall& call, bool is_deflected) {
   return component;
 }
 
-/// Returns the options of one setting; kinds and positions are defined by the file.
+/// Returns the options of one setting. Kinds and positions are not among them, because the file defines them.
 OptionTable setting_options(DeflectOptions& deflect, ControlOptions& control) {
   OptionTable options = sterna::options_of(deflect);
   for (Option& option : sterna::options_of(control))

@@ -1,4 +1,4 @@
-// `sterna draw` and the functions common with the verb draw{}: reading of the input, drawing, writing of the PNG.
+// `sterna draw`, and the functions that it has in common with the verb draw{}: reading of the input, drawing, and writing of the PNG.
 #pragma once
 
 #include <filesystem>
@@ -34,7 +34,7 @@ std::variant<TriMesh, HybridMesh> read_drawable(const InputPath& input, double u
 /// \throws Error(unsupported_format) unless the name ends in .png
 void require_picture_output(const std::filesystem::path& path);
 
-/// Writes the PNG atomically. `report`: findings of check, for DrawOptions::places; null: the mesh is checked here if they are requested.
+/// Writes the PNG atomically. `report`: findings of check, for DrawOptions::places; if null, the mesh is checked here when they are requested.
 /// \throws Error of draw_png and of io::AtomicFile
 void write_picture(const HybridMesh& mesh, const CheckReport* report, const DrawOptions& options, std::string_view name, const std::filesystem::path& path,
                    const RunContext& context);

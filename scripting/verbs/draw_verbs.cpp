@@ -66,7 +66,7 @@ ScriptTable with_texts(const ScriptCall& call, ScriptTable table) {
   return table;
 }
 
-/// Returns the name in a picture's title: the case of a series, the first input file and the number of further ones, or the script.
+/// Returns the name for a picture's title: the case of a series; or the first input file and the number of further ones; or the script.
 std::string name_of(const std::vector<InputFile>& inputs, const ScriptCall& call) {
   if (!call.session.output_folder.empty()) return call.session.output_folder.filename().string();
   if (inputs.empty()) return call.session.script.filename().string();

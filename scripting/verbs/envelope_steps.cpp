@@ -1,4 +1,4 @@
-// Each verb builds the layer domain (wall, outer boundary, their hierarchy) again, because a value contains only the data of a file.
+// Each verb builds the layer domain (wall, outer boundary, and their hierarchy) again, because a value contains only the data of a file.
 #include "scripting/verbs/envelope_steps.h"
 
 #include <algorithm>
@@ -34,8 +34,8 @@ OptionTable some_options(MeshCase& options, std::string_view names) {
   return table;
 }
 
-/// The steps treat the wall as one surface. make_envelope performs further steps if parts were placed, or sides are periodic: the steps would not give
-/// its envelope.
+/// Rejects walls with placed parts, and periodic sides. The steps treat the wall as one surface, but make_envelope performs further steps in these cases, so
+/// the steps would not give its envelope.
 void require_one_part(const ScriptCall& call, const MeshingSite& site, const RunContext& context) {
   if (!site.options.periodic.empty())
     reject(call, "the single envelope steps do not keep periodic sides identical", "make_envelope{ wall, periodic = ... } performs all steps");
@@ -65,7 +65,7 @@ constexpr std::string_view k_initial_names =
     "layers first_height max_growth total_height solve_for max_thickness max_relative_height height_gradient refinement family_wake farfield";
 constexpr std::string_view k_initial_usage = "envelope.initial{ wall, class, layers = 5, first_height = 0.01, max_growth = 1.35 }";
 
-/// Reads the wall as entry 1; for initial the classes as entry 2.
+/// Reads the wall as entry 1 and, for the verb initial, the classes as entry 2.
 SurfaceHandle wall_of(TableReader& reader, std::string_view usage) {
   const std::vector<ScriptValue>& items = reader.items();
   if (const auto* wall = items.empty() ? nullptr : std::get_if<SurfaceHandle>(&items.front())) return *wall;

@@ -1,4 +1,4 @@
-// The envelope step by step: envelope.classify, .initial, .smooth, .untangle, .unwarp, .retract, .optimise.
+// Verbs for the envelope step by step: envelope.classify, .initial, .smooth, .untangle, .unwarp, .retract, .optimise.
 #pragma once
 
 #include <span>

@@ -20,7 +20,7 @@ struct CheckFamilyOptions {
   bool strict = false;
 };
 
-/// Reads the volume sizes in the manifest of a mesh file. A manifest of another file, or of another mesh of that name, is ignored.
+/// Reads the volume sizes in the manifest beside a mesh file. A manifest that belongs to another file, or to another mesh of that name, is ignored.
 void read_manifest(const std::filesystem::path& file, FamilyMember& member, const RunContext& context) {
   const std::filesystem::path path = file.string() + ".json";
   std::error_code ignored;  // a path that cannot be accessed counts as missing
@@ -100,7 +100,7 @@ ScriptValue check_family_verb(const ScriptCall& call) {
   for (const auto& [mesh, file] : meshes) {
     const double i = static_cast<double>(members.size());
     const RunContext part = call.session.context.part("check_family", i / n, (i + 1) / n);
-    // For a mesh that was read in this run the name of its file is known, and therefore the manifest.
+    // If the mesh was read in this run, the name of its file is known, and therefore its manifest.
     InputPath from = file;
     if (mesh && !mesh->origin && mesh->inputs.size() == 1) from = find_input(call, mesh->inputs.front().name);
     const std::string name = from.name.empty() ? "mesh " + std::to_string(members.size() + 1) : from.name;

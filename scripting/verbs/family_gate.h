@@ -19,8 +19,8 @@ struct CheckFamilyCommand {
   bool is_json = false;
 };
 
-/// Returns the known data of a mesh. For a mesh made in this run these include the requested options; for a mesh that was read, those of the manifest
-/// beside its file, if the manifest belongs to the mesh. `file`: source of the mesh; empty: made in this run.
+/// Returns the known data of a mesh. For a mesh made in this run, they include the requested options. For a mesh that was read, they include those of the
+/// manifest beside its file, if the manifest belongs to the mesh. `file`: source of the mesh; empty: made in this run.
 FamilyMember member_of(const MeshValue& mesh, std::string name, const std::filesystem::path& file, const RunContext& context);
 
 /// Returns status 3 if a rule FAILs.

@@ -156,7 +156,7 @@ ScriptTable table_of_text(const std::string& text) {
   return table;
 }
 
-/// Reads { tunnel, sides = { floor = "wall" } }: the table of the first entry, with the sides.
+/// Reads { tunnel, sides = { floor = "wall" } }. Returns the table of the first entry, with the sides.
 ScriptTable table_of_entry(const ScriptCall& call, const ScriptTable& given) {
   TableReader reader(given, call.attempted() + ", farfield");
   ScriptTable table;

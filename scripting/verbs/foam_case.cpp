@@ -15,14 +15,16 @@
 namespace sterna::scripting {
 namespace {
 
-constexpr double k_compressible_mach = 0.3;    ///< below, density changes by less than 5 %
-constexpr double k_supersonic_advice = 1.3;    ///< above, shocks are far from what a pressure-based steady solver converges with
-constexpr double k_viscosity_ratio_sst = 1.0;  ///< NASA's Turbulence Modeling Resource advises 0.01 to 10 for free streams
-constexpr double k_chi_of_free_stream = 3.0;   ///< nuTilda over nu: 3 to 5 by Spalart and Rumsey (2007), so that boundary layers are turbulent from the start
+constexpr double k_compressible_mach = 0.3;    ///< Mach number; below it density changes by less than 5 %
+constexpr double k_supersonic_advice = 1.3;    ///< Mach number; above it a pressure-based steady solver may not converge because of strong shocks
+constexpr double k_viscosity_ratio_sst = 1.0;  ///< viscosity ratio of the free stream; NASA's Turbulence Modeling Resource recommends 0.01 to 10
+constexpr double k_chi_of_free_stream = 3.0;   ///< nuTilda over nu; Spalart and Rumsey (2007) recommend 3 to 5, so that boundary layers are turbulent from the
+                                               ///< start
 constexpr double k_full_correction = 70.0, k_half_correction = 80.0;  ///< degrees of non-orthogonality
 constexpr double k_cv1 = 7.1;                                         ///< constant of Spalart and Allmaras: nut = nuTilda chi^3 / (chi^3 + cv1^3)
 
-/// nuTilda over nu that gives this ratio of viscosities: the root of chi^4 = ratio (chi^3 + cv1^3), by Newton's method from above, where it is convex.
+/// Returns nuTilda over nu for a ratio of viscosities. This is the root of chi^4 = ratio (chi^3 + cv1^3), found by Newton's method from above, where the
+/// function is convex.
 double chi_of_ratio(double ratio) {
   const double c = k_cv1 * k_cv1 * k_cv1;
   double chi = ratio + k_cv1 + std::sqrt(std::sqrt(ratio * c));
@@ -35,7 +37,7 @@ bool is_compressible(const FoamOptions& options, const volmesh::FlowState& flow)
   return !is_automatic(flow.mach) && flow.mach >= k_compressible_mach;
 }
 
-/// If only the Reynolds number of a flow is known, all speeds give the same coefficients.
+/// Completes the flow. If only the Reynolds number is known, any speed gives the same coefficients.
 void complete_flow(FoamSetup& setup, const RunContext& context) {
   volmesh::FlowState& flow = setup.flow;
   if (is_automatic(flow.speed)) {
@@ -47,8 +49,9 @@ void complete_flow(FoamSetup& setup, const RunContext& context) {
   setup.nu = flow.speed * flow.length / flow.reynolds;
 }
 
-/// The explicit part of normal gradients grows with the tangent of the angle between a face and the line of the centres beside it. The two limits are the
-/// custom of OpenFOAM's users. That the least limiter keeps runs from diverging was measured on one airliner at 89 degrees (docs/flow.md).
+/// Chooses the correction of normal gradients, whose explicit part grows with the tangent of the angle between a face normal and the line through the centres
+/// of its cells. The two limits are those commonly used with OpenFOAM. A run of an airliner with an angle of 89 degrees diverged with the full correction and
+/// converged with the smallest one (docs/flow.md).
 void choose_correction(FoamSetup& setup, const CaseMeasure& non_orthogonality) {
   const double degrees = non_orthogonality.worst * k_degrees;
   const std::string measured = fmt::format("The largest angle between a face normal and the line through the centres of its cells is {:.4g} degrees{}", degrees,
@@ -62,7 +65,8 @@ void choose_correction(FoamSetup& setup, const CaseMeasure& non_orthogonality) {
     setup.correction = "limited corrected 0.33";
     setup.correction_reason = fmt::format("{}: above {:g} the correction is limited to half of the rest of the gradient.", measured, k_half_correction);
   }
-  // Without a second solution for the pressure a half M6 became unstable after 150 iterations: faces above 80 degrees before its trailing edge.
+  // Without a second solution for the pressure, a run of a half M6 wing became unstable after 150 iterations; it has faces above 80 degrees ahead of its
+  // trailing edge.
   setup.n_correctors = degrees > k_full_correction || (setup.is_turbulent && !setup.is_compressible) ? 1 : 0;
 }
 
@@ -76,7 +80,7 @@ void set_turbulence(FoamSetup& setup) {
   }
 }
 
-/// Returns the direction of a tunnel's inflow, else the direction by the angles: x aft, z up.
+/// Returns the direction of the flow: that of a tunnel's inflow, else the direction given by the angles. x points aft, z up.
 Vec3 direction_of(const HybridMesh& mesh, const CaseSite& site, const CaseOptions& common) {
   if (site.is_tunnel)
     for (const PatchId p : mesh.patches.ids())
@@ -107,7 +111,7 @@ void tell(const FoamSetup& setup, const CaseSite& site, const CaseReference& ref
         setup.flow.mach, k_supersonic_advice, setup.application));
 }
 
-/// Vertices of walls where the layer has no height: beside such vertices in narrow crevices and gaps runs diverged (docs/measurements/solvers.md).
+/// Warns about wall vertices where the layer has no height. Runs diverged beside such vertices in narrow crevices and gaps (docs/measurements/solvers.md).
 void warn_of_collapsed_lines(const HybridMesh& mesh, const RunContext& context) {
   const std::vector<std::uint8_t>& is_collapsed = mesh.layers.is_collapsed;
   const auto n = std::ranges::count_if(is_collapsed, [](std::uint8_t value) { return value != 0; });
@@ -121,7 +125,7 @@ void warn_of_collapsed_lines(const HybridMesh& mesh, const RunContext& context) 
                   n == 1 ? std::string("a vertex") : fmt::format("{} vertices", n), place.x, place.y, place.z));
 }
 
-/// Options that were given and do nothing in this case.
+/// Warns about options that are given but have no effect in this case.
 void tell_without_effect(const FoamSetup& setup, const RunContext& context) {
   const FoamOptions &given = setup.options, usual;
   const auto warn = [&](bool is_given, const char* name, const std::string& why) {

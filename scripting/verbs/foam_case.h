@@ -1,4 +1,5 @@
-// A case of OpenFOAM (1912 and newer) for a mesh: fields with their conditions by the kinds of patches, models, schemes, reference values and what to run.
+// Makes a case of OpenFOAM (1912 and newer) for a mesh: fields with their conditions by the kinds of patches, models, schemes, reference values, and scripts to
+// run it.
 #pragma once
 
 #include <filesystem>
@@ -31,28 +32,29 @@ struct FoamOptions {
 };
 
 struct CaseFile {
-  std::filesystem::path path;  ///< in the case's folder
+  std::filesystem::path path;  ///< relative to the folder of the case
   std::string text;
   bool is_program = false;
 };
 
-/// All of a case but its polyMesh.
+/// A whole case except its polyMesh.
 struct FoamCase {
   std::string application;  ///< "simpleFoam"
   std::vector<CaseFile> files;
-  std::vector<PeriodicSides> joined;  ///< sides of actuator discs, which are to be cyclic patches
+  std::vector<PeriodicSides> joined;  ///< sides of actuator discs, which must become cyclic patches
 };
 
-/// Solvers: simpleFoam, pimpleFoam, and where compressible rhoSimpleFoam, rhoPimpleFoam. Walls: no slip, without viscosity (euler) slip; slip and symmetry by
-/// their kinds; farfield: free stream or extrapolation by the direction of the flow through each face; inflow and outflow of tunnels (no farfield): speed and
-/// pressure of the flow, along the patch's normal; of bodies in a farfield, and actuator discs: as `boundaries` says. Forces are counted on all walls but those
-/// of tunnels; half models: half the area; without a reference area only forces, no coefficients. A flow of which only the Reynolds number is known gets a
-/// speed of 1 m/s. Corrections of normal gradients follow from the largest Measure::non_orthogonality. What was decided goes to the log.
-/// \throws Error(bad_argument) with everything that cannot be known from the mesh and what was given
+/// Makes the case for a mesh. The solver is simpleFoam or pimpleFoam, for compressible flow rhoSimpleFoam or rhoPimpleFoam. Walls have no slip, or slip if the
+/// flow has no viscosity (euler). Slip and symmetry patches keep their kinds. The farfield is free stream or extrapolation, depending on the direction of the
+/// flow through each face. Inflow and outflow of tunnels (meshes without farfield) have speed and pressure of the flow, along the patch's normal. Inflow and
+/// outflow of bodies in a farfield, and actuator discs, have the conditions in `boundaries`. Forces are computed on all walls except those of tunnels. Half
+/// models have half the area; without a reference area there are only forces, no coefficients. A flow of which only the Reynolds number is known gets a speed
+/// of 1 m/s. Corrections of normal gradients follow from the largest Measure::non_orthogonality. The decisions go to the log.
+/// \throws Error(bad_argument) with all data that are neither in the mesh nor given
 FoamCase foam_case(const HybridMesh& mesh, const FoamOptions& options, const CaseOptions& common, const volmesh::FlowState& flow,
                    const CaseReference& reference, const CaseBoundaries& boundaries, const RunContext& context, const CaseMeasure& non_orthogonality = {});
 
-/// What a case needs of the flow, whatever the mesh is: problems for the reader of a table, before meshing.
+/// Checks the flow data that a case needs, independent of the mesh. Adds problems for the reader of a table, before meshing.
 void require_foam_flow(const FoamOptions& options, const volmesh::FlowState& flow, CaseProblems& problems);
 
 }  // namespace sterna::scripting

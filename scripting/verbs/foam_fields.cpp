@@ -1,4 +1,4 @@
-// The fields of a case of OpenFOAM: what each patch's kind is to the velocity, the pressure, the temperature and the turbulence.
+// The fields of a case of OpenFOAM. They give the conditions of velocity, pressure, temperature and turbulence that follow from the kind of each patch.
 #include <cmath>
 
 #include <fmt/format.h>
@@ -13,12 +13,12 @@ namespace {
 /// Entries of a patch in the files of the fields.
 struct PatchConditions {
   std::string velocity, pressure, temperature;
-  std::string transported;  ///< conditions of nuTilda, k and omega at openings; with "VALUE" where the free stream's value is to stand
+  std::string transported;  ///< conditions of nuTilda, k and omega at openings; "VALUE" is replaced by the value of the free stream
   std::string nu_tilda, k, omega, nut, alphat;
   std::string potential = "type zeroGradient;";
 };
 
-/// The same for every field: symmetry, cyclic.
+/// Returns the same entry for every field: for symmetry and cyclic patches.
 PatchConditions constrained(const std::string& type) {
   const std::string entry = "type " + type + ";";
   return {entry, entry, entry, entry, entry, entry, entry, entry, entry, entry};
@@ -50,7 +50,7 @@ class FoamFields {
         text += "    " + names[i] + "\n    {\n        " + replaced(replaced(entry(all[i]), "; ", ";\n        "), "VALUE", value) + "\n    }\n";
       result.push_back({.path = "0/" + name, .text = text + "}\n"});
     };
-    // The conditions of potentialFoam. By default potentialFoam takes a potential of 0 on a farfield with a free stream, and the fluid stays at rest.
+    // Phi has the conditions for potentialFoam. By default potentialFoam sets a potential of 0 on a farfield with a free stream, and the fluid stays at rest.
     add("Phi", "volScalarField", "0 2 -1 0 0 0 0", "0", [](const PatchConditions& c) { return c.potential; });
     const auto transported = [](const std::string& own, const PatchConditions& c) { return own.empty() ? c.transported : own; };
     add("U", "volVectorField", "0 1 -1 0 0 0 0", foam_vector(setup_.velocity), [](const PatchConditions& c) { return c.velocity; });
@@ -74,7 +74,7 @@ class FoamFields {
   std::string free_pressure() const { return setup_.is_compressible ? case_number(setup_.flow.pressure) : "0"; }
   bool is_supersonic() const { return setup_.is_compressible && setup_.flow.mach >= 1.0; }
 
-  /// As the solver has it: without compressibility over the density, from that of the free stream on.
+  /// Returns a pressure in the form that the solver uses. In incompressible flow this is the difference from the pressure of the free stream, over the density.
   std::string pressure_of(double pressure, const std::string& what) {
     if (setup_.is_compressible) return case_number(pressure);
     if (is_automatic(setup_.flow.pressure) || !setup_.is_density_known) {
@@ -101,7 +101,7 @@ class FoamFields {
 
   static constexpr const char* k_calculated = "type calculated; value uniform 0;";
 
-  /// Wall functions that become nothing where y+ is about 1, and hold where it is larger.
+  /// Returns wall functions that have no effect where y+ is about 1, and that are valid where it is larger.
   PatchConditions wall() const {
     return {.velocity = "type noSlip;",
             .pressure = "type zeroGradient;",
@@ -124,7 +124,7 @@ class FoamFields {
             .alphat = k_calculated};
   }
 
-  /// What comes in is the free stream, what goes out is extrapolated, by the sign of the flow through each face.
+  /// Returns conditions by the direction of the flow through each face: the free stream where it enters, extrapolation where it leaves.
   PatchConditions farfield() const {
     return {.velocity = "type freestreamVelocity; freestreamValue uniform " + foam_vector(setup_.velocity) + ";",
             .pressure = "type freestreamPressure; freestreamValue uniform " + free_pressure() + ";" + (is_supersonic() ? " supersonic true;" : ""),
@@ -183,7 +183,7 @@ class FoamFields {
     return c;
   }
 
-  /// Its two sides become cyclic patches, over which the pressure rises in the direction of the flow.
+  /// Returns the conditions of one side of an actuator disc. The two sides become cyclic patches, over which the pressure rises in the direction of the flow.
   PatchConditions disc(PatchId p) {
     PatchConditions c = constrained("cyclic");
     const PatchId front = front_of_disc(mesh_, site_, p).value_or(p);
@@ -194,7 +194,7 @@ class FoamFields {
       return c;
     }
     if (is_front) joined_.push_back({front, *back, {}});
-    CaseProblems told;  // with the front
+    CaseProblems told;  // for the back: problems are reported with the front
     const std::optional<double> jump = boundaries_.pressure_jump(mesh_.patches[front], site_.facts[front].size, is_front ? problems_ : told);
     if (!jump) return c;
     if (!setup_.is_compressible && !setup_.is_density_known) {

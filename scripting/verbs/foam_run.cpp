@@ -1,5 +1,6 @@
-// Steps of Allrun in a steady case: potentialFoam for fluxes that conserve mass, a start of first order in parts of some iterations until forces settle, the
-// rest of second order in parts until they settle again. Between the parts judge.awk reads what the function objects have written.
+// In a steady case Allrun has three steps: potentialFoam for fluxes that conserve mass; a start with first-order schemes, in parts of some iterations, until
+// forces settle; the rest with second-order schemes, in parts, until forces settle again. Between the parts, judge.awk reads the output of the function
+// objects.
 #include "scripting/verbs/foam_run.h"
 
 #include <algorithm>
@@ -10,18 +11,19 @@
 namespace sterna::scripting {
 namespace {
 
-constexpr int k_part = 50;               ///< iterations from one judgement to the next
-constexpr int k_least_iterations = 150;  ///< least number for a separate start; a third of all iterations is the longest start
-/// Over the flow's speed: beyond the first a run has diverged, and beyond the third times that value the divergence began. Contractions and jets are faster
-/// than flow round a body.
+constexpr int k_part = 50;               ///< iterations between two tests by judge.awk
+constexpr int k_least_iterations = 150;  ///< smallest number of iterations for a separate start; the start has at most a third of all iterations
+/// Limits of the largest velocity. A run has diverged if it exceeds k_diverged times the flow's speed, or k_diverged_inside times for contractions and jets,
+/// which are faster than flow around a body. The divergence began where it exceeded k_first_sign times that limit.
 constexpr double k_diverged = 10.0, k_diverged_inside = 100.0, k_first_sign = 0.5;
-/// Steady flow of gases is held below a share of that speed, and a run has diverged where it is still near that bound after the start.
+/// In steady flow of gases, the velocity is bounded by k_speed_bound times that limit. A run has diverged if the velocity is still above k_near_bound of the
+/// bound after the start.
 constexpr double k_speed_bound = 0.4, k_near_bound = 0.9;
-/// Iterations out of 50 near the bound after which a run has diverged: a single cell of a business jet's tail touched the bound now and then while forces
-/// moved by 0.1 %.
+/// A run has diverged if the velocity is near the bound in this many of 50 iterations. Fewer do not matter: in a converged run (forces changed by 0.1 %) a
+/// single cell at the tail of a business jet touched the bound now and then.
 constexpr int k_many_near_bound = 25;
-constexpr int k_first_watched = 15, k_first_watched_in_gas = 30;  ///< iterations after which the impulse of the start has faded
-constexpr double k_place_radius = 0.02;                           ///< radius of the picture of a location, over the length of the flow
+constexpr int k_first_watched = 15, k_first_watched_in_gas = 30;  ///< iterations until the disturbance by the start has faded
+constexpr double k_place_radius = 0.02;                           ///< radius of the picture of a location, over the reference length of the flow
 
 constexpr std::string_view k_judge = R"AWK(# Reads the output of function objects, one value or force per iteration, and tests it.
 # awk -f judge.awk -v what=settled -v window=200 -v share=0.002 -v drag="1 0 0" -v lift="0 0 1" FILES prints "settled PERCENT", "moving PERCENT" or "short"
@@ -92,10 +94,10 @@ constexpr std::string_view k_scale = R"AWK(# awk -v density=1.2 -f scale.awk FIE
 }
 )AWK";
 
-/// The fields as they were written: Allrun keeps them beside the case while potentialFoam changes them.
+/// Restores the original fields. Allrun keeps them beside the case while potentialFoam changes them.
 constexpr std::string_view k_restore = "restore() { for field in U Phi; do [ ! -f $field.start ] || mv $field.start 0/$field || return 1; done; }\n";
 
-/// What follows on the variables of steady_variables().
+/// The part of Allrun after the variables of steady_variables().
 constexpr std::string_view k_steady_run = R"SH(
 # Times with results, and files of a function object in the order of the parts.
 written() { if [ "$tasks" = 1 ]; then ls; else ls processor0 2> /dev/null; fi | grep -E '^[1-9][0-9]*$' | sort -g; }
@@ -194,10 +196,10 @@ warn_of_bounds
 [ "$tasks" = 1 ] || run reconstructPar reconstructPar -latestTime
 )SH";
 
-/// m/s, as if no velocity was bounded.
+/// Returns the velocity, m/s, above which a run without bound of the velocity has diverged.
 double unbounded_speed(const FoamSetup& setup) { return (setup.has_fast_openings ? k_diverged_inside : k_diverged) * setup.flow.speed; }
 
-/// m/s
+/// Returns the velocity, m/s, above which the run has diverged.
 double diverged_speed(const FoamSetup& setup) { return setup.is_compressible ? k_near_bound * foam_speed_bound(setup) : unbounded_speed(setup); }
 
 int first_watched(const FoamSetup& setup) { return setup.is_compressible ? k_first_watched_in_gas : k_first_watched; }

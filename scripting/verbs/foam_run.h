@@ -1,4 +1,4 @@
-// How a case of OpenFOAM is run: Allrun with its stages, Allclean, and the script that judges forces and velocities.
+// The files with which a case of OpenFOAM is run: Allrun with its stages, Allclean, and the script that tests forces and velocities.
 #pragma once
 
 #include <vector>
@@ -7,14 +7,15 @@
 
 namespace sterna::scripting {
 
-/// system/stage, stage.start, stage.final (schemes that differ between the start and the rest of a steady run), system/runControl (where a part of it ends),
-/// system/judge.awk, Allrun, Allclean.
+/// Returns system/stage, stage.start and stage.final (schemes that differ between the start and the rest of a steady run), system/runControl (the end of each
+/// part of the run), system/judge.awk, Allrun and Allclean.
 std::vector<CaseFile> foam_run_files(const FoamSetup& setup);
 
-/// Entries of controlDict's functions by which a steady run ends when its velocity is out of bounds; empty for runs in time.
+/// Returns entries of controlDict's functions by which a steady run ends when its velocity is out of bounds; empty for transient runs.
 std::string foam_watch_functions(const FoamSetup& setup);
 
-/// m/s, the bound of the velocity in steady flow of gases (limitVelocity in fvOptions): the start from uniform flow throws single cells far off.
+/// Returns the bound of the velocity in steady flow of gases, m/s (limitVelocity in fvOptions). It is needed because the start from uniform flow gives extreme
+/// velocities in single cells.
 double foam_speed_bound(const FoamSetup& setup);
 
 }  // namespace sterna::scripting

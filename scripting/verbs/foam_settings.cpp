@@ -1,4 +1,5 @@
-// constant/, system/ and Allrun of a case of OpenFOAM. Every scheme has its reason beside it in the file: docs/measurements/solvers.md has the figures.
+// Files in constant/ and system/, and Allrun, of a case of OpenFOAM. Each file gives the reason for every scheme beside it; the figures are in
+// docs/measurements/solvers.md.
 #include <algorithm>
 #include <array>
 #include <cmath>
@@ -13,12 +14,12 @@
 namespace sterna::scripting {
 namespace {
 
-/// J / (kg K), of air at constant pressure.
+/// Heat capacity of air at constant pressure, J / (kg K).
 constexpr double k_heat_capacity = volmesh::k_gas_constant * volmesh::k_heat_ratio / (volmesh::k_heat_ratio - 1.0);
 
 constexpr double k_prandtl = 0.72;          ///< Prandtl number of air
-constexpr double k_lengths_in_time = 20.0;  ///< that the flow goes on in a run in time, by default
-constexpr double k_first_step = 1e-3;       ///< first time step over length and speed; afterwards steps follow from the Courant number
+constexpr double k_lengths_in_time = 20.0;  ///< default duration of a transient run, in reference lengths over the flow's speed
+constexpr double k_first_step = 1e-3;       ///< first time step, in reference lengths over the flow's speed; later steps follow from the Courant number
 
 std::string dictionary(std::string_view object, std::string_view location, const std::string& text) {
   return io::foam_header(object, "dictionary", location) + text;
@@ -30,7 +31,7 @@ std::string words(const std::vector<std::string>& list) {
   return text;
 }
 
-/// The factors of a number of tasks in three directions, as equal as they can be, the largest first.
+/// Returns the factors of a number of tasks in three directions, as equal as possible, the largest first.
 std::array<int, 3> split_tasks(int n) {
   std::array<int, 3> best = {n, 1, 1};
   for (int a = 1; a * a * a <= n; ++a) {
@@ -70,7 +71,7 @@ class FoamSettings {
 
   std::string gas() const {
     const double mu = s_.nu * s_.density;
-    // A viscosity of the user's own is constant; air's follows Sutherland.
+    // A viscosity given by the user is constant; that of air follows Sutherland's law.
     constexpr double k_same = 1e-3;
     const bool is_air = std::abs(mu - volmesh::viscosity_of_air(s_.flow.temperature)) <= k_same * mu;
     const bool is_sutherland = s_.is_viscous && is_air;
@@ -89,7 +90,8 @@ class FoamSettings {
            ";\n" + more + "    }\n";
   }
 
-  /// What a value at an opening is of: mean pressure in Pa (without compressibility the solver's times the density), flow rate in kg/s or m^3/s.
+  /// Returns a function object that evaluates a field at an opening: mean pressure in Pa (in incompressible flow the solver's value times the density), or flow
+  /// rate in kg/s or m^3/s.
   std::string at_opening(const std::string& patch, const std::string& operation, const std::string& field, const std::string& indent) const {
     const bool is_scaled = field == "p" && !s_.is_compressible && s_.is_density_known;
     return indent + "type surfaceFieldValue;\n" + indent + "libs (fieldFunctionObjects);\n" + indent + "writeControl timeStep;\n" + indent +
@@ -98,7 +100,7 @@ class FoamSettings {
            field + ");\n";
   }
 
-  /// Returns the function objects of tunnels and ducts: mean pressure and flow rate of each opening; from each inflow to each outflow the drop of pressure.
+  /// Returns the function objects of tunnels and ducts: mean pressure and flow rate of each opening, and the pressure drop from each inflow to each outflow.
   std::string openings() const {
     std::string text;
     const auto add = [&](const std::string& name, const std::string& content) { text += "    " + name + "\n    {\n" + content + "    }\n"; };
@@ -134,7 +136,7 @@ class FoamSettings {
     if (!s_.monitored.empty()) text += forces("forces", "forces", "");
     text += openings();
     if (!is_automatic(s_.area) && !s_.monitored.empty()) {
-      const Vec3 drag = s_.drag_direction(), lift = s_.lift_direction();  // moments nose-up
+      const Vec3 drag = s_.drag_direction(), lift = s_.lift_direction();  // pitching moments are positive nose-up
       text += forces("forceCoeffs", "forceCoeffs",
                      "        dragDir " + foam_vector({clean_component(drag.x, 1.0), clean_component(drag.y, 1.0), clean_component(drag.z, 1.0)}) +
                          ";\n        liftDir " + foam_vector({clean_component(lift.x, 1.0), 0.0, clean_component(lift.z, 1.0)}) +
@@ -156,7 +158,7 @@ class FoamSettings {
     return text + "}\n";
   }
 
-  /// The fields with an equation.
+  /// Returns the names of the fields that have an equation.
   std::string solved() const {
     std::string text = "p U";
     if (s_.is_compressible) text += " e";

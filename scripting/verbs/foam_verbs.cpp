@@ -20,14 +20,15 @@
 namespace sterna::scripting {
 namespace {
 
-constexpr double k_measured = 0.5;                          ///< share of the progress
+constexpr double k_measured = 0.5;                          ///< fraction of the progress after measuring the mesh
 constexpr std::string_view k_proof = "system/controlDict";  ///< file that marks a folder as a case
 
-/// \param mesh as the solver is to see it, \param made where it comes from
+/// \param mesh the mesh for the solver, \param made its origin
 void write_case(const HybridMesh& mesh, const MeshValue& made, const FoamCase& files, const FoamOptions& options, const std::filesystem::path& path,
                 const RunContext& context) {
   const Numbering numbering = numbering_of(options.numbering);
-  // Nodes by lines also where cells are not: what the mesh knows of its columns stays, and solvers with values in cells hardly depend on the nodes.
+  // Nodes are numbered by lines even if cells are not: the data of the mesh on its columns stay valid, and the order of nodes hardly affects solvers with
+  // values in cells.
   const HybridMesh numbered = renumbered(mesh, numbering == Numbering::lines ? numbering : Numbering::both, context);
   const auto zones = zones_of_sources(numbered, made.origin ? made.origin->options.sources : std::vector<volmesh::SizeSource>{});
   io::AtomicFolder folder(path, k_proof);
@@ -42,7 +43,7 @@ void write_case(const HybridMesh& mesh, const MeshValue& made, const FoamCase& f
                                    std::filesystem::perms::owner_exec | std::filesystem::perms::group_exec | std::filesystem::perms::others_exec,
                                    std::filesystem::perm_options::add);
   }
-  io::write_whole(folder.path() / (path.filename().string() + ".foam"), "");  // by which ParaView opens it
+  io::write_whole(folder.path() / (path.filename().string() + ".foam"), "");  // file by which ParaView opens the case
   io::write_whole(folder.path() / "mesh.json", manifest_json(made, path, context.seed()));
   folder.commit();
 }
@@ -59,7 +60,7 @@ void require_new_case(const std::filesystem::path& folder, const std::string& at
                  .problem = "the path " + whole + " has a blank or a quotation mark; OpenFOAM's programs do not run in such a folder",
                  .hint = "choose a folder without them"});
   std::vector<std::string> results;
-  std::error_code status;  // of a folder that is not there: there are no results
+  std::error_code status;  // if the folder does not exist: there are no results
   for (const auto& entry : std::filesystem::directory_iterator(folder, status)) {
     const std::string name = entry.path().filename().string();
     const bool is_time = name != "0" && std::ranges::all_of(name, [](char c) { return (c >= '0' && c <= '9') || c == '.' || c == 'e' || c == '-'; });

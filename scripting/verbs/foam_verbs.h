@@ -1,4 +1,4 @@
-// mesh:foam_case{}, and what `sterna foam-case` shares with it.
+// mesh:foam_case{}, and the functions common with `sterna foam-case`.
 #pragma once
 
 #include <filesystem>
@@ -16,14 +16,14 @@ inline constexpr std::string_view k_foam_case_usage =
 ScriptValue write_foam_case(const ScriptCall& call);
 std::string foam_case_help();
 
-/// The folder appears whole or not at all; an older case without results is replaced.
+/// Writes the folder of a case, completely or not at all. An older case without results is replaced.
 /// \throws Error(bad_argument) of foam_case and with_kinds, (write_failed) as require_new_case
 void write_foam_folder(const MeshValue& mesh, const FoamOptions& options, const CaseRequest& request, const std::filesystem::path& folder,
                        const std::string& attempted, const RunContext& context);
-/// A case that was run holds what took hours: it is not replaced.
+/// Rejects a folder whose case has been run, because its results took hours.
 /// \throws Error(write_failed)
 void require_new_case(const std::filesystem::path& folder, const std::string& attempted);
-/// Without the slash that a folder may end in.
+/// Returns the path without the slash with which a folder may end.
 std::filesystem::path case_folder(const std::filesystem::path& path);
 
 }  // namespace sterna::scripting

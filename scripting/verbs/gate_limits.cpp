@@ -22,7 +22,7 @@ std::vector<std::string> measure_names() {
 
 std::vector<std::string> limit_names() { return {"hard", "target", "usual", "share"}; }
 
-/// Returns the only measure of a gate, e.g. "G5".
+/// Returns the measure of a gate, such as "G5", if it has only one; else null.
 const MeasureInfo* only_measure_of(std::string_view gate) {
   const MeasureInfo* found = nullptr;
   for (const MeasureInfo& info : measures()) {
@@ -47,7 +47,7 @@ const MeasureInfo* measure_of(const std::string& name) {
   return info ? info : only_measure_of(name);
 }
 
-/// Returns nullptr if there is no such limit.
+/// Returns the limit with this name; null if there is none.
 double* limit_of(GateLimits& limits, std::string_view name) {
   if (name == "hard") return &limits.hard;
   if (name == "target") return &limits.target;
@@ -58,7 +58,7 @@ double* limit_of(GateLimits& limits, std::string_view name) {
 /// Returns the limit in the unit of reports: "3 deg".
 std::string limit_text(const MeasureInfo& info, double limit) { return number_text(in_report_unit(info, limit), 4) + (info.is_angle ? " deg" : ""); }
 
-/// Returns the problem with limits of a measure; empty: none.
+/// Returns the problem with the limits of a measure; empty if there is none.
 std::string objection_to(const MeasureInfo& info, const GateLimits& limits) {
   if (!(limits.usual_share >= 0.0 && limits.usual_share <= 1.0)) return "share is " + number_text(limits.usual_share) + ", it must be between 0 and 1";
   const double hard = info.is_low_bad ? -limits.hard : limits.hard, target = info.is_low_bad ? -limits.target : limits.target;

@@ -9,8 +9,9 @@
 
 namespace sterna::scripting {
 
-/// Reads the entry `gates` of a table. Keys are names of measures (or of a gate that has one measure, "G5"); hard, target, usual are numbers (angles in
-/// radians) or false for none, share in [0, 1]. A measure that is false has no limits: it is displayed only. Notes problems. Returns true if the entry exists.
+/// Reads the entry `gates` of a table. Keys are names of measures, or of a gate that has one measure ("G5"). The limits hard, target and usual are numbers
+/// (angles in radians), or false for no limit; share is in [0, 1]. A measure that is false has no limits: it is displayed only. Notes problems. Returns true if
+/// the entry exists.
 bool read_gate_limits(TableReader& reader, GateTable& limits);
 
 /// Sets limits from the command line: "orthogonality:hard=3deg,target=15deg", "face_weight:none".

@@ -122,7 +122,7 @@ ScriptValue read_cad_verb(const ScriptCall& call) {
   return std::make_shared<const ModelValue>(read_model(*file, options, call.session.context.part("read_cad", 0.0, 1.0)));
 }
 
-/// For a script that is only checked: tests if the file has the control surfaces named in its deflections. Only the description is read; no model is made.
+/// Tests for a script that is only checked if the file has the control surfaces named in its deflections. Only the description is read; no model is made.
 void check_deflections(const ScriptCall& call, const InputPath& file, const std::vector<ControlSetting>& settings, TableReader& reader) {
   std::error_code ignored;  // a path that cannot be accessed counts as missing, which is reported elsewhere
   if (!call.session.check || settings.empty() || reader.has_problems() || !std::filesystem::exists(file.path, ignored)) return;
@@ -212,7 +212,7 @@ ScriptValue airfoil_field(const ScriptCall& call) {
 
 constexpr std::string_view k_surface_usage = "surface{ function(u, v) return u, v, 0.1*u*v end, u = {0, 1}, v = {0, 1}, name = \"sheet\", tolerance = 1e-6 }";
 
-/// Makes faces over halves of the closed directions, so that no face uses a seam twice; sides of zero length are poles.
+/// Makes faces over halves of the closed directions, so that no face uses a seam twice. Sides of zero length become poles.
 Model model_of_surface(const SampledSurface& sampled, const SurfaceOptions& options, const ParameterBox& box) {
   const SurfacePtr surface = sampled.surface;
   const NurbsSurfaceForm form = *surface->exact_nurbs();
@@ -231,7 +231,7 @@ Model model_of_surface(const SampledSurface& sampled, const SurfaceOptions& opti
   };
   const double size = length({box.u.from, box.v.from}, {box.u.to, box.v.to}) + length({box.u.from, box.v.to}, {box.u.to, box.v.from});
   const auto is_pole = [&](Uv from, Uv to) { return length(from, to) <= sampled.error + 1e-9 * size; };
-  // Rows and columns that coincide by periodicity have the same number; those of a pole have one corner.
+  // Rows and columns that coincide by periodicity have the same number. Those at a pole have only one corner.
   const auto row_of = [](std::size_t i, const std::vector<double>& at, bool is_closed) { return is_closed && i + 1 == at.size() ? std::size_t{0} : i; };
   std::vector<CornerId> corners(us.size() * vs.size());
   std::vector<char> is_u_pole(vs.size()), is_v_pole(us.size());
@@ -404,7 +404,7 @@ std::optional<Airfoil> read_airfoil_value(const ScriptValue& value, const Script
     if (const auto* airfoil = std::get_if<AirfoilHandle>(&value)) return **airfoil;
     if (const auto* text = std::get_if<std::string>(&value)) {
       const InputPath file = find_input(call, *text);
-      // A designation has no extension; an existing file wins.
+      // A designation has no extension. If there is a file of that name, the file wins.
       const bool is_file = std::filesystem::exists(file.path) || (file.path.has_extension() && text->find(' ') == std::string::npos);
       return is_file ? read_airfoil(file.path) : naca_airfoil(*text);
     }

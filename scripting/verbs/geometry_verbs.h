@@ -1,4 +1,4 @@
-// Verbs that make models: readers of CAD, sumo and CPACS files, airfoils, surfaces of functions, boxes, cylinders, unions.
+// Verbs that make models: readers of CAD, sumo and CPACS files; airfoils; surfaces of functions; boxes; cylinders; unions.
 #pragma once
 
 #include <optional>
@@ -15,7 +15,7 @@ std::span<const ScriptVerb> geometry_verbs();
 extern const ScriptVerb k_airfoil_field;
 std::string describe(const Airfoil& airfoil);
 
-/// Makes box{...} and cylinder{...} without `size`: solids. With `size` they are sources (source_verbs.h).
+/// Makes box{...} and cylinder{...} without `size`, which are solids. With `size` they are sources (source_verbs.h).
 ScriptValue make_box_model(const ScriptCall& call);
 ScriptValue make_cylinder_model(const ScriptCall& call);
 

@@ -87,8 +87,8 @@ SurfaceValue half_surface(const SurfaceValue& surface, const HalfOptions& option
   half.mesh = half_of(surface.mesh, options, context);
   half.report.is_closed = false;
   half.mesh_report.reset();                                         // report of the whole surface
-  half.model_wall.reset();                                          // refers to its triangles by number
-  std::erase_if(half.layers, [&](const volmesh::PatchRule& rule) {  // rules of patches on the other side
+  half.model_wall.reset();                                          // refers to the triangles of the whole surface by number
+  std::erase_if(half.layers, [&](const volmesh::PatchRule& rule) {  // removes rules of patches that are on the other side only
     return std::none_of(half.mesh.patches.begin(), half.mesh.patches.end(), [&](const Patch& patch) { return matches_glob(patch.name, rule.names); });
   });
   half.parts.clear();

@@ -1,4 +1,4 @@
-// The verb half: cuts models as exact geometry, and triangulated surfaces as triangles.
+// The verb half. It cuts models as exact geometry, and triangulated surfaces as triangles.
 #pragma once
 
 #include <span>
@@ -15,7 +15,7 @@ namespace sterna::scripting {
 /// The verb half. Takes a surface, the name of a surface's file, models or components.
 std::span<const ScriptVerb> half_verbs();
 
-/// Returns the half of a surface with its origin.
+/// Returns the half of a surface, with the data on its origin.
 /// \throws Error of half_of
 SurfaceValue half_surface(const SurfaceValue& surface, const HalfOptions& options, const RunContext& context);
 

@@ -23,7 +23,7 @@ constexpr std::string_view k_inspect_usage =
     "inspect(wall)  or  inspect{ wall, layers = 32, first_height = 2e-6, flow = flow{ mach = 0.78, altitude = 11000, length = 4.2 }, output = \"trouble.vtu\" "
     "}  or  inspect{ \"wall.stl\", unit = mm }";
 
-/// Returns the table of inspect{ wall } for inspect(wall).
+/// Converts inspect(wall) to the table of inspect{ wall }.
 ScriptTable inspection_table(const ScriptCall& call) {
   if (call.arguments.size() != 1 || !std::holds_alternative<SurfaceHandle>(call.arguments.front())) return table_argument(call, 0, k_inspect_usage);
   ScriptTable table;
@@ -33,7 +33,7 @@ ScriptTable inspection_table(const ScriptCall& call) {
 
 TableHandle handle(ScriptTable table) { return std::make_shared<const ScriptTable>(std::move(table)); }
 
-/// Sets an entry of the table; a number without a value gets none.
+/// Sets an entry of the table. A number that is not finite gets no entry.
 void set_number(ScriptTable& table, const std::string& name, double value) {
   if (std::isfinite(value)) table.fields[name] = value;
 }
@@ -104,7 +104,7 @@ TableHandle report_table(const Inspection& report) {
   return handle(std::move(table));
 }
 
-/// A surface, or files: exactly one of the two.
+/// The input: a surface, or files, but not both.
 struct Given {
   SurfaceHandle surface;
   std::vector<InputPath> files;

@@ -9,7 +9,7 @@ namespace sterna::scripting {
 
 std::span<const ScriptVerb> inspect_verbs();
 
-/// Returns a placeholder for the table of an inspection if a script is only checked: no findings.
+/// Returns a placeholder for the table of an inspection, without findings, for a script that is only checked.
 ScriptValue inspection_stand_in();
 
 }  // namespace sterna::scripting

@@ -13,7 +13,7 @@ namespace sterna::scripting {
 /// \throws Error(bad_argument) with a remedy if the surface has no model
 void require_model_wall(const SurfaceValue& wall, const std::string& attempted);
 
-/// Measures the mesh's walls against the model of `wall` and adds both gates to the report; omissions go to the log.
+/// Measures the mesh's walls against the model of `wall` and adds both gates to the report. Walls that cannot be measured are reported in the log.
 /// \pre wall.model_wall; report.quality_measured
 void measure_on_model(const HybridMesh& mesh, const SurfaceValue& wall, const GateTable& limits, CheckReport& report, const RunContext& context);
 

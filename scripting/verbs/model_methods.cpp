@@ -17,7 +17,7 @@
 
 namespace sterna::scripting {
 
-/// A full turn: larger values are degrees without `*deg`.
+/// A full turn. Larger values are degrees that were given without `*deg`.
 inline constexpr double k_turn = 6.2831853071795865;
 
 struct RotateOptions {
@@ -44,19 +44,19 @@ struct Schema<scripting::RotateOptions> {
                .unit = Unit::radian,
                .min = -scripting::k_turn,
                .max = scripting::k_turn,
-               .help = "nose up, about +y; after roll"},
+               .help = "pitch angle about +y, positive nose up; applied after roll"},
       Field<O>{.name = "yaw",
                .member = &O::yaw,
                .unit = Unit::radian,
                .min = -scripting::k_turn,
                .max = scripting::k_turn,
-               .help = "nose to starboard, about -z; last"},
+               .help = "yaw angle about -z, positive nose to starboard; applied last"},
       Field<O>{.name = "roll",
                .member = &O::roll,
                .unit = Unit::radian,
                .min = -scripting::k_turn,
                .max = scripting::k_turn,
-               .help = "starboard wing down, about -x; first"},
+               .help = "roll angle about -x, positive with the starboard wing down; applied first"},
       Field<O>{.name = "angle",
                .member = &O::angle,
                .unit = Unit::radian,
@@ -100,7 +100,7 @@ ScriptValue without_description(ModelValue value, std::string_view by) {
   return std::make_shared<const ModelValue>(std::move(value));
 }
 
-/// Returns a model with another geometry: one part, at its location.
+/// Returns a model whose geometry was replaced. It is one part, at its location.
 ScriptValue changed(const ModelHandle& old, Model model, std::string_view by) {
   ModelValue value = *old;
   value.model = std::move(model);
@@ -111,7 +111,7 @@ ScriptValue changed(const ModelHandle& old, Model model, std::string_view by) {
 /// Returns the same model at another location.
 ScriptValue moved(const ModelHandle& old, const Transform& motion, std::string_view by) {
   ModelValue value = *old;
-  value.parts = parts_of(*old);  // has the key of its inputs; its copies do not
+  value.parts = parts_of(*old);  // the key of the inputs of `old` is used here, because copies of a value lose their key
   move_parts(motion, value);
   return without_description(std::move(value), by);
 }
@@ -255,7 +255,7 @@ ScriptValue set_kinds(const ScriptCall& call) {
   TableReader reader(table, call.attempted());
   ModelValue value = *handle;
   value.is_as_described = false;
-  // Patterns with more literal letters come later, so that they win.
+  // Patterns with more literal letters come later, so that their names win.
   std::vector<std::string> patterns;
   for (const auto& [pattern, kind] : table.fields) patterns.push_back(pattern);
   std::stable_sort(patterns.begin(), patterns.end(), [](const std::string& a, const std::string& b) { return n_spelled_out(a) < n_spelled_out(b); });
@@ -403,7 +403,7 @@ ScriptValue model_field(const ScriptCall& call) {
     fields.emplace_back("min", list_of(box.min));
     fields.emplace_back("max", list_of(box.max));
   }
-  // Any name in m.components can be used as a field; members and methods keep their names.
+  // Any name in m.components can be used as a field, except names of members and methods.
   const bool is_member = name && (std::any_of(fields.begin(), fields.end(), [&](const auto& field) { return field.first == *name; }) ||
                                   std::any_of(model_methods().begin(), model_methods().end(),
                                               [&](const ScriptVerb& verb) { return verb.name.substr(verb.name.find(':') + 1) == *name; }));

@@ -9,7 +9,7 @@
 namespace sterna::scripting {
 
 std::span<const ScriptVerb> model_methods();
-/// model.faces; model["wing*"] are the components of that name, as a model.
+/// Reads the fields of a model: model.faces; model["wing*"] is a model of the components of that name.
 extern const ScriptVerb k_model_field;
 
 /// Reads the motion of object:move{ dx, dy, dz } and object:rotate{ ... }, for models and surfaces.

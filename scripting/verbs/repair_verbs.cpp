@@ -71,7 +71,7 @@ constexpr std::array<ScriptVerb, 2> k_repair_verbs = {{
      repair_parts, repair_help, true, "surface"},
 }};
 
-/// Returns true if an entry, which is true, false or a table, is a request; options of a table go to `schema`.
+/// Returns true if an entry (true, false or a table) requests a step. Options of a table go to `schema`.
 bool is_asked(TableReader& reader, const ScriptCall& call, const std::string& name, const OptionTable& schema) {
   const ScriptValue* value = reader.field(name);
   if (value == nullptr) return false;

@@ -16,7 +16,7 @@ std::span<const ScriptVerb> repair_verbs();
 
 /// Reader for read_surface; empty if its table has none of repair, wrap and auto.
 using SurfaceReader = std::function<SurfaceValue(const std::vector<InputPath>&, const surfmesh::StitchOptions&, const RunContext&, const Reuse&)>;
-/// Reads repair = true or a table of repair's options, wrap likewise, auto = true; at most one of them.
+/// Reads one of repair, wrap and auto. repair and wrap are true or a table of options of the step; auto is true. At most one of them may be given.
 SurfaceReader read_surface_entry(TableReader& reader, const ScriptCall& call);
 
 }  // namespace sterna::scripting

@@ -15,7 +15,7 @@ namespace {
 
 constexpr double k_straight = 1e-9;  ///< rad: smaller angles of the flow are treated as zero
 
-/// Returns the kind of the patches to which such a value applies.
+/// Returns the kind of the patches to which this value of a condition applies.
 PatchKind kind_with(std::string_view value) {
   return value == "pressure" ? PatchKind::outflow : value.starts_with("total_") ? PatchKind::inflow : PatchKind::interface;
 }
@@ -126,7 +126,7 @@ CaseMeasure measured_worst(const HybridMesh& mesh, Measure measure, const CheckR
   }
   report_verdict(*known, measure, solver, context);
   const GateResult& gate = known->gate(measure);
-  CaseMeasure result{.worst = gate.worst, .place = {}};  // 0 for a measure between cells in a mesh of one cell
+  CaseMeasure result{.worst = gate.worst, .place = {}};  // a mesh of one cell has no faces between cells, so the measure is 0
   for (const auto* places : {&gate.places, &gate.forced})
     if (!places->empty() && places->front().value == gate.worst) result.place = places->front().position;
   return result;

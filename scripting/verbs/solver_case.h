@@ -1,4 +1,4 @@
-// Common parts of mesh:su2_config and mesh:foam_case: options, reference values, conditions at openings, and the role of a mesh's patches in a solver.
+// Common parts of mesh:su2_config and mesh:foam_case: options, reference values, conditions at openings, and the roles of a mesh's patches in a solver.
 #pragma once
 
 #include <map>
@@ -44,12 +44,12 @@ struct CaseReference {
   double area = k_automatic;    ///< m^2
   double length = k_automatic;  ///< m; automatic: that of the flow
   Point moment_origin{};        ///< m
-  std::string source;           ///< "wing "main"": for the file and the log
+  std::string source;           ///< origin of the values for the file and the log: "wing "main""
 };
 
-/// Kind of patches with matching names in the solver, in place of the kind in the mesh.
+/// Kind that patches with matching names have in the solver. It replaces their kind in the mesh.
 struct CaseKind {
-  std::string names;  ///< pattern; of two that match, the one with more letters applies
+  std::string names;  ///< pattern; if two patterns match a name, the one with more letters applies
   PatchKind kind = PatchKind::wall;
 };
 
@@ -65,10 +65,10 @@ struct CaseRequest {
 /// The worst value of a quality measure, which determines a solver's numerics.
 struct CaseMeasure {
   double worst = 0.0;          ///< in the measure's unit
-  std::optional<Point> place;  ///< m, if it misses a limit of its gate
+  std::optional<Point> place;  ///< m; location of the worst value, if it misses a limit of its gate
 };
 
-/// Returns the worst value from the last check of the mesh, or from a new check if the last one has not measured it. \p solver as named in the error
+/// Returns the worst value from the last check of the mesh, or from a new check if the last one has not measured it. \p solver name of the solver in the error
 /// \throws Error(bad_argument) if the mesh is not conforming, so that the measure is undefined
 CaseMeasure measured_worst(const HybridMesh& mesh, Measure measure, const CheckReport* known, std::string_view solver, const RunContext& context);
 /// Returns " at (x, y, z)", or nothing.
@@ -77,10 +77,10 @@ std::string at_place(const CaseMeasure& measure);
 struct PatchFacts {
   std::size_t n_faces = 0;
   Vec3 area;          ///< m^2, sum of the faces' normals, out of the fluid
-  double size = 0.0;  ///< m^2
+  double size = 0.0;  ///< m^2, sum of the areas of the faces
 };
 
-/// Collects missing data that are neither in the mesh nor given: all are reported together.
+/// Collects data that are neither in the mesh nor given, so that all of them are reported together.
 class CaseProblems {
  public:
   void add(std::string text) { all_.push_back(std::move(text)); }
@@ -92,45 +92,45 @@ class CaseProblems {
   std::vector<std::string> all_;
 };
 
-/// The patches of a mesh as used by solvers.
+/// The patches of a mesh in the roles that they have in solvers.
 struct CaseSite {
   Column<PatchId, PatchFacts> facts;
-  std::vector<PatchId> monitored;    ///< patches with force output: those that `monitor` names, else all walls except those of tunnels
-  std::vector<PatchId> unmonitored;  ///< walls of a tunnel: they touch an inflow or outflow
+  std::vector<PatchId> monitored;    ///< patches whose forces are computed: those named by `monitor`, else all walls except those of tunnels
+  std::vector<PatchId> unmonitored;  ///< walls of a tunnel, which are recognised because they touch an inflow or outflow
   bool has_layers = false;
-  bool is_tunnel = false;    ///< openings and no farfield
-  bool is_internal = false;  ///< a tunnel without a model in it (duct, nozzle): the output is the flow between its openings, not forces
+  bool is_tunnel = false;    ///< there are openings, but no farfield
+  bool is_internal = false;  ///< a tunnel without a model in it (duct, nozzle): the result is the flow between its openings instead of forces
   bool is_half = false;
   std::vector<PatchId> inflows, outflows;
 };
 
-/// Returns the mesh with other kinds of patches; nothing if no kind is changed. Cells are kept, so layers may be on a slip wall.
-/// \throws Error(bad_argument) for a pattern that matches no patch, the kind interface, periodic sides and actuator discs
+/// Returns the mesh with other kinds of patches; nothing if no kind is changed. Cells are kept, so a slip wall may have layers.
+/// \throws Error(bad_argument) for a pattern that matches no patch, for the kind interface, and for periodic sides and actuator discs
 std::optional<HybridMesh> with_kinds(const HybridMesh& mesh, std::vector<CaseKind> kinds, const std::string& attempted);
 
-/// \param unknown patches of unknown kind (MeshValue::unknown_kinds): a guess would become a boundary condition
+/// Rejects patches of unknown kind, because a guess would become a boundary condition. \param unknown patches of unknown kind (MeshValue::unknown_kinds)
 /// \throws Error(bad_argument) that names the patches without a rule in `kinds`
 void require_known_kinds(const std::set<std::string>& unknown, const std::vector<CaseKind>& kinds, const std::string& attempted);
 
-/// \param mesh a plane of symmetry makes it a half model
+/// Returns the patches by their roles. \param mesh is a half model if it has a plane of symmetry
 CaseSite case_site(const HybridMesh& mesh, const CaseOptions& options, CaseProblems& problems);
 
 /// Returns true if the patch is one of two periodic sides.
 bool is_periodic(const HybridMesh& mesh, PatchId patch);
-/// A disc has two sides: <name>, upstream, and <name>.back. The functions return the side opposite to the front and to the back; nothing if the patch is not
-/// that side.
+/// A disc has two sides: <name>, which is upstream (the front), and <name>.back. These functions return the side opposite to the front, and the side opposite
+/// to the back; nothing if the patch is not that side.
 std::optional<PatchId> back_of_disc(const HybridMesh& mesh, const CaseSite& site, PatchId patch);
 std::optional<PatchId> front_of_disc(const HybridMesh& mesh, const CaseSite& site, PatchId patch);
 
-/// Conditions by names of patches, with a record of the used conditions.
+/// Conditions by names of patches. Records which conditions are used.
 class UsedBoundaries {
  public:
   explicit UsedBoundaries(const CaseBoundaries& boundaries) : boundaries_(boundaries) {}
   /// Returns the condition of the patch; an empty one if its name is not given.
   CaseBoundary of(const Patch& patch);
-  /// Returns the pressure jump over an actuator disc, Pa; nothing, and adds a problem, if it cannot be determined.
+  /// Returns the pressure jump over an actuator disc, Pa. If it cannot be determined, returns nothing and adds a problem.
   std::optional<double> pressure_jump(const Patch& disc, double area, CaseProblems& problems);
-  /// Adds a problem for every name that no patch has used. Adds a problem for every value that has no meaning at such a patch (a thrust at an inflow).
+  /// Adds a problem for every name that no patch has used, and for every value that has no meaning at its patch (such as a thrust at an inflow).
   void require_used(CaseProblems& problems) const;
 
  private:
@@ -138,15 +138,15 @@ class UsedBoundaries {
   std::map<std::string, PatchKind> used_;
 };
 
-/// Return the values for the solver, m^2 and m.
+/// Return the values that the solver gets, in m^2 and m.
 double reference_area(const CaseReference& reference, const CaseSite& site);
 double reference_length(const CaseReference& reference, const volmesh::FlowState& flow);
 /// Returns the point with zeros in place of rounding errors.
 Point moment_origin(const CaseReference& reference, const volmesh::FlowState& flow);
 
-/// Returns a component of a vector of this length, with zero in place of a rounding error, so that "-3.3e-16" does not occur in human-readable files.
+/// Returns a component of a vector of this length, with zero in place of a rounding error, so that files for human readers do not contain "-3.3e-16".
 double clean_component(double x, double length);
-/// Returns the normal into the fluid, unit length.
+/// Returns the unit normal into the fluid.
 Vec3 inward_normal(const PatchFacts& facts);
 std::string case_number(double x);
 

@@ -18,7 +18,7 @@
 
 namespace sterna::scripting {
 
-/// The numbers of all kinds of sources; each verb accepts some of them.
+/// The numbers of all kinds of sources. Each verb accepts some of them.
 struct SourceNumbers {
   double size = k_automatic;
   double size_end = k_automatic;
@@ -68,7 +68,7 @@ struct KindOfSource {
   SourceKind kind;
   std::string_view verb;
   std::size_t n_points;
-  std::string_view numbers;  ///< accepted by the verb, separated by blanks
+  std::string_view numbers;  ///< names of the numbers that the verb accepts, separated by blanks
   std::string_view usage;
 };
 constexpr std::array<KindOfSource, 6> k_source_kinds = {{
@@ -93,7 +93,7 @@ std::string keys_text(const KindOfSource& kind) {
   return kind.kind == SourceKind::wake ? text + ", direction" : text;
 }
 
-/// Returns the dimension of the value with that key of a source: none for a direction, that of the option if there is one, else a length.
+/// Returns the dimension of the value of a source with that key: that of the option if there is one, none for a direction, else a length.
 Unit unit_of_key(const std::string& key) {
   SourceNumbers numbers;
   for (const Option& option : sterna::options_of(numbers))
@@ -109,7 +109,7 @@ OptionTable options_of(SourceNumbers& numbers, const KindOfSource& kind) {
 }
 
 SizeSource source_of(ScriptTable table, const KindOfSource& kind, const std::string& attempted) {
-  table.fields.erase("shape");  // set by the verb, no key of the user's
+  table.fields.erase("shape");  // the verb sets it; it is no key of the user's
   SizeSource source{.kind = kind.kind};
   SourceNumbers numbers;
   const OptionTable options = options_of(numbers, kind);
@@ -155,7 +155,7 @@ ScriptTable source_table(const ScriptCall& call) {
 ScriptValue make_source(const ScriptCall& call, const KindOfSource& kind) {
   ScriptTable table = source_table(call);
   const SizeSource source = source_of(table, kind, call.attempted());
-  // Growth is known only in volume_mesh; all other problems can be reported for this line.
+  // The growth of sizes is known only in volume_mesh. All other problems can be reported for this line.
   if (const std::string problem = problem_of(source, k_unbounded); !problem.empty())
     throw Error({.code = ErrorCode::bad_argument, .attempted = call.attempted(), .problem = problem, .hint = std::string(kind.usage)});
   table.fields["shape"] = std::string(kind.verb);
@@ -169,7 +169,7 @@ const KindOfSource* kind_named(std::string_view verb) {
 
 ScriptValue make_source_of_verb(const ScriptCall& call) { return make_source(call, *kind_named(call.verb)); }
 
-/// box{...} and cylinder{...}: with `size` a source, with `edge` or `sides` a farfield, without these a solid.
+/// Returns true if box{...} or cylinder{...} is a source, that is, if it has `size`. With `edge` or `sides` it is a farfield, otherwise a solid.
 bool has_size(const ScriptCall& call) {
   const auto* table = call.arguments.empty() ? nullptr : std::get_if<TableHandle>(&call.arguments.front());
   return table && (*table)->fields.contains("size");
@@ -183,7 +183,7 @@ ScriptValue make_cylinder_or_source(const ScriptCall& call) {
 
 ScriptValue point_value(const Vec3& p) { return std::make_shared<const ScriptTable>(ScriptTable{.items = {p.x, p.y, p.z}, .fields = {}, .other_keys = {}}); }
 
-/// Makes wake{ wall, length = 2 }: the numbers follow from the surface, therefore the result is the table of an ordinary wake.
+/// Makes wake{ wall, length = 2 }. The numbers follow from the surface, so the result is the table of an ordinary wake.
 ScriptValue make_wake_behind(const ScriptCall& call, const SurfaceHandle& wall) {
   const ScriptTable table = source_table(call);
   TableReader reader(table, call.attempted());
@@ -223,7 +223,7 @@ std::string wake_help() {
   return options_help(options_of(numbers, k_source_kinds[5])) + "behind a surface, wake{ wall, length = 2 }:\n" + options_help(sterna::options_of(wake));
 }
 
-/// Checks the table here; the file is read by the verb that uses it.
+/// Makes size_samples{}. Only the table is checked here; the file is read by the verb that uses it.
 ScriptValue make_samples(const ScriptCall& call) {
   ScriptTable table;
   if (call.arguments.size() == 1 && std::holds_alternative<std::string>(call.arguments.front())) table.items.push_back(call.arguments.front());

@@ -85,7 +85,8 @@ ScriptValue make_tetrahedra_verb(const ScriptCall& call) {
 
 constexpr std::string_view k_prisms_usage = "prisms{ env, tets, improve_rounds = 30 }";
 
-/// The layer is subdivided before the tetrahedra are made (it may have to be lower than the envelope), so its options belong to tetrahedra{}.
+/// Rejects options of the layer, which belong to tetrahedra{}. The layer is subdivided before the tetrahedra are made, because it may have to be lower than the
+/// envelope.
 void refuse_layer_options(TableReader& reader) {
   volmesh::PrismOptions options;
   for (const Option& option : sterna::options_of(options))
@@ -134,7 +135,7 @@ ScriptValue read_stages_verb(const ScriptCall& call) {
 /// Returns the envelope's points with the connectivity of the wall.
 SurfaceValue surface_of(const EnvelopeValue& envelope) {
   SurfaceValue surface = *envelope.wall;
-  surface.mesh_report.reset();  // report of the wall
+  surface.mesh_report.reset();  // the report is that of the wall
   surface.parts.clear();
   for (const VertexId v : surface.mesh.points.ids()) surface.mesh.points[v] = envelope.stage.envelope.point(envelope.wall->mesh, v);
   return surface;

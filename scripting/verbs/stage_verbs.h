@@ -1,4 +1,4 @@
-// The verbs for a volume mesh step by step: make_envelope, tetrahedra, prisms, read_stages, and their objects.
+// The verbs that make a volume mesh step by step (make_envelope, tetrahedra, prisms, read_stages), and their objects.
 #pragma once
 
 #include <span>

@@ -1,5 +1,5 @@
-// Keys, formats and units as in SU2's config_template.cfg (version 8). Steps of su2_config: facts of each patch (area, normal, neighbours); markers of every
-// kind; flow and reference values; text.
+// Keys, formats and units are those of SU2's config_template.cfg (version 8). Steps of su2_config: compute the data of each patch (area, normal, neighbours);
+// write the markers of every kind; write flow and reference values.
 #include "scripting/verbs/su2_config.h"
 
 #include <algorithm>
@@ -19,10 +19,10 @@ namespace {
 
 using volmesh::FlowState;
 
-/// Parameters of SU2's iteration to the steady state. SU2's own advice for RANS and upwind schemes: a CFL number below 20 is low, above 100 high; ten
-/// iterations of the linear solver are enough on a sound mesh. Faces of control volumes that are nearly parallel to their edges make the matrix less diagonally
-/// dominant, so lower numbers are combined with more iterations there. The two limits are those of the gate (G5); no run has tested them, since SU2 is not in
-/// Debian.
+/// Parameters of SU2's iteration to the steady state. For RANS and upwind schemes, SU2's documentation calls a CFL number below 20 low and above 100 high, and
+/// ten iterations of the linear solver enough on a sound mesh. Faces of control volumes that are nearly parallel to their edges make the matrix less diagonally
+/// dominant, so lower CFL numbers are combined with more iterations there. The two limits are those of the gate (G5). No run has tested them, since SU2 is not
+/// in Debian.
 struct March {
   double cfl, largest_cfl;
   int linear_iterations;
@@ -85,8 +85,8 @@ class Configuration {
       context_.info(fmt::format("SU2: wall functions are used, because the first height corresponds to y+ {:.3g}", y_plus));
   }
 
-  /// The kinds of the patches of a pair are ignored: the flow leaves through one and enters through the other. SU2 takes the centre and angles of a rotation,
-  /// none here.
+  /// Adds the periodic pairs. The kinds of their patches are ignored: the flow leaves through one patch and enters through the other. SU2 also expects centre
+  /// and angles of a rotation, which are zero here.
   void add_periodic() {
     for (const PeriodicSides& sides : mesh_.periodic)
       periodic_.push_back(fmt::format("{}, {}, 0, 0, 0, 0, 0, 0, {}, {}, {}", names_[sides.first.index()], names_[sides.second.index()],
@@ -149,7 +149,7 @@ class Configuration {
   }
 
   void add_disc(PatchId p, const std::string& name) {
-    if (front_of_disc(mesh_, site_, p)) return;  // handled with its front
+    if (front_of_disc(mesh_, site_, p)) return;  // the back of a disc is handled together with its front
     const std::optional<PatchId> back = back_of_disc(mesh_, site_, p);
     if (!back) {
       problems_.add("patch \"" + mesh_.patches[p].name + "\" is of kind interface, but no side of an actuator disc: its boundary condition is unknown");
@@ -276,7 +276,8 @@ class Configuration {
     return text + "ITER= " + std::to_string(common_.iterations) + "\n" + end();
   }
 
-  /// For a force SU2 takes the mean change from one iteration to the next, divided by the force; with several forces all have to be below the limit.
+  /// Returns the end criterion. For a force SU2 takes the mean change from one iteration to the next, divided by the force; with several forces all changes
+  /// must be below the limit.
   std::string end() const {
     if (monitored_.empty()) return "CONV_FIELD= RMS_DENSITY\nCONV_RESIDUAL_MINVAL= -9\nCONV_STARTITER= 10\n";
     const bool has_lift = std::abs(common_.alpha) > k_no_angle;
@@ -287,7 +288,7 @@ class Configuration {
         k_force_change / k_force_window, k_force_window);
   }
 
-  /// SU2 provides this output if there are two markers at least.
+  /// Returns the output of the pressure drop, which SU2 provides if there are at least two markers.
   std::string drop() const { return site_.inflows.size() + site_.outflows.size() > 1 ? ", SURFACE_PRESSURE_DROP" : ""; }
 
   std::string files() const {

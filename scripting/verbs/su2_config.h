@@ -22,18 +22,18 @@ struct Su2Options {
   bool restart = false;
 };
 
-/// Returns the text of the configuration. Walls: MARKER_HEATFLUX (adiabatic) or MARKER_ISOTHERMAL, without viscosity MARKER_EULER; slip: MARKER_EULER;
-/// symmetry: MARKER_SYM; farfield: MARKER_FAR; inflow and outflow of tunnels (no farfield): total conditions and pressure of the flow, along the patch's
-/// normal; of bodies in a farfield, and actuator discs: as given in `boundaries`. Forces are computed on all walls except those of tunnels (which touch an
-/// inflow or outflow). Half models: half the area. Tunnels need no reference area; those without a model in them (ducts) monitor no forces. MARKER_ANALYZE are
-/// their openings. CFL numbers and the linear solver follow from the least Measure::orthogonality. The decisions go to the log. \p boundaries by the names of
-/// patches
+/// Returns the text of the configuration. Walls are MARKER_HEATFLUX (adiabatic) or MARKER_ISOTHERMAL, in flow without viscosity MARKER_EULER. Slip walls are
+/// MARKER_EULER, symmetry is MARKER_SYM, the farfield MARKER_FAR. Inflow and outflow of tunnels (meshes without farfield) have total conditions and pressure of
+/// the flow, along the patch's normal. Inflow and outflow of bodies in a farfield, and actuator discs, have the conditions in `boundaries`. Forces are computed
+/// on all walls except those of tunnels (walls that touch an inflow or outflow). Half models have half the area. Tunnels need no reference area. Ducts, which
+/// are tunnels without a model in them, monitor no forces; their openings are MARKER_ANALYZE. CFL numbers and the linear solver follow from the least
+/// Measure::orthogonality. The decisions go to the log. \p boundaries by the names of patches
 /// \throws Error(bad_argument) with all data that are neither in the mesh nor given
 std::string su2_config(const HybridMesh& mesh, const Su2Options& options, const CaseOptions& common, const volmesh::FlowState& flow,
                        const CaseReference& reference, const CaseBoundaries& boundaries, const RunContext& context,
                        const CaseMeasure& orthogonality = {.worst = 90.0 * k_degree, .place = {}});
 
-/// Checks the flow data that a configuration needs, independent of the mesh. \param is_viscous unknown before meshing: the temperature is not required
+/// Checks the flow data that a configuration needs, independent of the mesh. \param is_viscous unknown before meshing; the temperature is then not required
 void require_su2_flow(const volmesh::FlowState& flow, std::optional<bool> is_viscous, CaseProblems& problems);
 
 }  // namespace sterna::scripting

@@ -16,11 +16,11 @@ inline constexpr std::string_view k_su2_config_usage =
 ScriptValue write_su2_config(const ScriptCall& call);
 std::string su2_config_help();
 
-/// Writes a configuration for the mesh file named in `options`, else for a mesh file beside it with the same name.
+/// Writes a configuration for the mesh file named in `options`. If none is named, the mesh file has the same name and is beside the configuration.
 /// \throws Error(bad_argument) of su2_config and with_kinds
 void write_su2_file(const MeshValue& mesh, Su2Options options, const CaseRequest& request, const std::filesystem::path& file, const std::string& attempted,
                     const RunContext& context);
-/// Returns the problem with the name of a mesh that SU2 is to read; empty: none.
+/// Returns the problem with the name of a mesh file for SU2; empty if there is none.
 std::string problem_of_su2_mesh(const std::string& name);
 
 }  // namespace sterna::scripting

@@ -17,10 +17,10 @@ namespace {
 constexpr std::string_view k_surface_move_usage = "wall:move{ 0, 0, 1.5 }";
 constexpr std::string_view k_surface_rotate_usage =
     "wall:rotate{ about = {1.2, 0, 0}, pitch = 4*deg, yaw = 2*deg }  or  wall:rotate{ axis = {0, 0, 1}, angle = 30*deg }";
-constexpr std::size_t k_named_pairs = 5;    ///< locations named by an error
-constexpr std::size_t k_most_pairs = 1000;  ///< crossings searched
+constexpr std::size_t k_named_pairs = 5;    ///< number of locations named by an error
+constexpr std::size_t k_most_pairs = 1000;  ///< maximum number of crossings searched
 
-/// Returns the surface as placed parts: itself if it has none.
+/// Returns the surface as placed parts. If it has no parts, the surface itself is one part.
 std::vector<volmesh::PlacedPart> parts_of(const SurfaceValue& surface) {
   if (!surface.parts.empty()) return surface.parts;
   return {{std::make_shared<const TriMesh>(surface.mesh), {}, 0, 0, surface.smooth_angle.value_or(k_automatic)}};
@@ -51,7 +51,7 @@ ScriptValue rotate_surface(const ScriptCall& call) {
 }
 
 constexpr std::array<ScriptVerb, 2> k_motions = {{
-    {"surface:move", k_surface_move_usage, "Returns the surface moved, in metres.", move_surface, nullptr, true, "surface"},
+    {"surface:move", k_surface_move_usage, "Returns a copy of the surface, moved by a vector in metres.", move_surface, nullptr, true, "surface"},
     {"surface:rotate", k_surface_rotate_usage, "Returns the surface rotated: x points aft, y to starboard, z up.", rotate_surface, rotate_help, true,
      "surface"},
 }};
@@ -63,7 +63,7 @@ SurfaceValue moved_surface(const SurfaceValue& surface, const Transform& motion)
   moved.parts = parts_of(surface);
   if (surface.model_wall) moved.model_wall = std::make_shared<const surfmesh::ModelWall>(*surface.model_wall, motion);
   if (moved.mesh_report) move_places(motion, *moved.mesh_report);
-  // Starts from the own frame each time, so that two motions have the same rounding as one.
+  // The motion starts from the part's own frame each time, so that two motions have the same rounding as one.
   for (volmesh::PlacedPart& part : moved.parts) {
     part.placement = motion * part.placement;
     Column<VertexId, Point> points = part.own->points;

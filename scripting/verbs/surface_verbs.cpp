@@ -19,7 +19,7 @@ namespace {
 constexpr std::string_view k_surface_mesh_usage =
     "surface_mesh{ model, max_edge = 0.4, curvature_angle = 12*deg, growth = 1.2, patches = { [\"Body*\"] = { max_edge = 0.15 } } }";
 
-/// Returns the options of a surface mesh in a script: pairs of sides are a list there.
+/// Returns the options of a surface mesh without the pairs of periodic sides, which are a list in a script.
 OptionTable without_pairs(OptionTable table) {
   std::erase_if(table, [](const Option& option) { return option.name == "periodic"; });
   return table;
@@ -104,7 +104,7 @@ std::string surface_mesh_help() {
 constexpr std::string_view k_remesh_usage =
     "remesh{ wall, curvature_angle = 12*deg, max_edge = 0.4, growth = 1.2, patches = { [\"Body*\"] = { max_edge = 0.15 } } }";
 
-/// The remesh request of a table.
+/// The request of a table to remesh.
 struct RemeshAsked {
   RemeshRecipe recipe;
   SurfaceRules rules;

@@ -12,7 +12,7 @@ namespace sterna::scripting {
 
 std::span<const ScriptVerb> surface_verbs();
 
-/// The entry `remesh` of read_surface: true, or a table with the options of the verb remesh. Empty: no entry.
+/// The entry `remesh` of read_surface, which is true or a table with the options of the verb remesh. Empty if there is no such entry.
 using RemeshEntry = std::function<SurfaceValue(const SurfaceValue&, const RunContext&, const Reuse&)>;
 RemeshEntry read_remesh_entry(TableReader& reader, const ScriptCall& call);
 

@@ -1,5 +1,5 @@
-// test_section{}: a rectangular or round duct, or a solid of the user's, whose patches have their own kinds, sizes and layers. assembly{}: models that are
-// united where they touch.
+// test_section{} makes a rectangular or round duct, or takes a solid of the user's; its patches have their own kinds, sizes and layers. assembly{} combines
+// models, which are united where they touch.
 #include "scripting/verbs/tunnel_verbs.h"
 
 #include <algorithm>
@@ -59,7 +59,7 @@ struct Schema<scripting::TunnelSizeOptions> {
 namespace sterna::scripting {
 namespace {
 
-/// Default number of edges along the shortest side of a tunnel: sufficient for its walls if no body is near.
+/// Default number of edges along the shortest side of a tunnel. It is sufficient for walls without a body nearby.
 constexpr double k_edges_across = 12.0;
 
 constexpr std::string_view k_test_section_usage =
@@ -83,7 +83,7 @@ bool is_any(const volmesh::PatchRule& rule) {
          rule.truncate != volmesh::PatchRule{}.truncate;
 }
 
-/// Sets the size of all patches, as a rule that those of single patches override.
+/// Sets the size of all patches by a rule that rules of single patches override.
 void add_size(const TunnelSizeOptions& options, ModelValue& tunnel) {
   const Box box = box_of(tunnel.model);
   if (box.empty()) return;
@@ -116,7 +116,7 @@ void read_patch(const ScriptValue& value, const std::string& key, const std::set
   } else {
     kind = read_patch_kind(value, key, reader);
   }
-  // A table with layers for a side of a tunnel makes it a wall, whatever kind a less specific entry gives; a kind beside the layers is kept.
+  // A table with layers makes a side of a tunnel a wall, even if a less specific entry gives another kind. A kind beside the layers is kept.
   const bool has_layers = layer.layers > 0;
   if (kind && *kind != PatchKind::wall && is_any(layer) && layer.layers != 0)
     reader.add_problem(key + ": only walls have layers, and this patch is of kind " + std::string(to_string(*kind)) +
@@ -155,7 +155,7 @@ void read_patches(TableReader& reader, ModelValue& tunnel) {
   }
 }
 
-/// Uses the user's solid as a tunnel: inflow and outflow are patterns of names of its faces, all others are walls.
+/// Uses the user's solid as a tunnel. Inflow and outflow are patterns of names of its faces; all other faces are walls.
 void take_solid(const ModelHandle& solid, TableReader& reader, ModelValue& tunnel) {
   tunnel = *solid;
   tunnel.description.reset();
@@ -176,7 +176,7 @@ void take_solid(const ModelHandle& solid, TableReader& reader, ModelValue& tunne
   }
   if (tunnel.model.solids.size() != 1 || !tunnel.model.solids.raw().front().is_closed)
     reader.add_problem("a tunnel must be one closed solid; this model is " + describe(tunnel));
-  else if (solid_measures(tunnel.model, SolidId(0)).volume > 0.0) {  // the fluid is inside
+  else if (solid_measures(tunnel.model, SolidId(0)).volume > 0.0) {  // the normals point outwards, but the fluid is inside
     turn_inside_out(tunnel.model);
     tunnel.parts.clear();
   }
@@ -205,7 +205,7 @@ ScriptValue make_test_section_verb(const ScriptCall& call) {
   ModelValue tunnel{.without_description = "it is a test section"};
   const bool is_given = !items.empty();
   refuse_items_beyond(reader, 1);
-  if (is_given && is_stand_in(call, items.front())) finish_checks(call);  // its faces are unknown
+  if (is_given && is_stand_in(call, items.front())) finish_checks(call);  // the faces of a placeholder are unknown
   if (is_given) {
     if (const ModelHandle solid = model_of(items.front(), call)) take_solid(solid, reader, tunnel);
     else reader.add_problem("entry 1: expected the model of a closed solid, not " + std::string(type_text(items.front())));
@@ -219,7 +219,7 @@ ScriptValue make_test_section_verb(const ScriptCall& call) {
     if (!is_round && (is_automatic(options.width) || is_automatic(options.height)))
       reader.add_problem("needs width and height, or the diameter of a round section");
     const std::optional<Vec3> position = read_point(reader, "position");
-    // Problems found so far are reported together with later ones: a section that cannot be made has no faces.
+    // Problems found so far are reported together with later ones, because a section that cannot be made has no faces.
     if (!is_automatic(options.length) && is_round == (is_automatic(options.width) && is_automatic(options.height))) {
       tunnel.model = make_test_section(options);
       if (position) tunnel.model = transformed(tunnel.model, translation(*position));

@@ -1,4 +1,4 @@
-// wing{}: numbers from the root to the tip -> sections of geom/model/aircraft.h, tip first.
+// wing{}: converts the numbers from the root to the tip to sections of geom/model/aircraft.h, which begin at the tip.
 #include <algorithm>
 #include <array>
 #include <cmath>
@@ -156,15 +156,15 @@ struct Schema<scripting::WingletOptions> {
 namespace sterna::scripting {
 namespace {
 
-/// Sections of the bend between wing and winglet; an arc of that many straight segments has an error of 1 % of its radius.
+/// Number of sections of the bend between wing and winglet. An arc of that many straight segments has an error of 1 % of its radius.
 constexpr int k_bend_sections = 5;
-/// Default fraction of a winglet's height over which it bends. If this is too tight, the radius is the section's height on the inside of the bend times the
-/// margin.
+/// Default fraction of a winglet's height over which it bends. If this bend is too tight, the radius becomes the section's height on the inside of the bend,
+/// times the margin.
 constexpr double k_usual_bend = 0.25, k_bend_margin = 1.5;
-/// Limits of the fraction and of the margin: with a larger fraction hardly a straight part remains; with a smaller radius hardly any skin remains on the
+/// Limits of the fraction and of the margin. With a larger fraction hardly any straight part remains; with a smaller radius hardly any skin remains on the
 /// inside.
 constexpr double k_most_bend = 0.9, k_least_bend_margin = 1.05;
-/// Steeper panels need z or span, because y does not define them.
+/// Slope above which a panel must be given by z or span, because y does not define it.
 constexpr double k_steep = 1.5;
 
 /// A section as given in the table, in order from the root.
@@ -176,11 +176,11 @@ struct GivenSection {
   double roll = k_automatic;
   bool is_break = false;
   bool is_reversed = false;
-  double dihedral = 0.0;  ///< dihedral of the panel before it, at its actual position
+  double dihedral = 0.0;  ///< dihedral of the panel before this section, at the actual positions
   Airfoil airfoil;
 };
 
-/// Returns the angle of a panel about x: up to the right is positive, as is down to the left.
+/// Returns the angle of a panel about x, which is positive if the panel runs up to the right or down to the left.
 double panel_roll(const Point& from, const Point& to) {
   const double dy = to.y - from.y, dz = to.z - from.z;
   return dy < 0.0 ? -std::atan2(dz, -dy) : std::atan2(dz, dy);
@@ -201,8 +201,8 @@ class SectionList {
   void add_winglet(const ScriptValue& value, const Point& position);
 
   std::vector<GivenSection> sections;
-  std::string winglet_name;          ///< empty: the winglet is part of the wing's patch, or there is none
-  std::size_t n_before_winglet = 0;  ///< sections of the wing itself
+  std::string winglet_name;          ///< empty: there is no winglet, or it is part of the wing's patch
+  std::size_t n_before_winglet = 0;  ///< number of sections of the wing itself
 
  private:
   void add(const ScriptValue& value, const std::string& where);
@@ -212,7 +212,7 @@ class SectionList {
   const WingOptions& options_;
 };
 
-/// Sets the position of the section, from the given values and the section before.
+/// Sets the position of the section from the given values and the previous section.
 void SectionList::place(GivenSection& s, const WingSectionOptions& o, const std::string& where) {
   const bool is_first = sections.empty();
   const Point before = is_first ? Point{} : sections.back().leading;
@@ -268,10 +268,10 @@ void SectionList::add(const ScriptValue& value, const std::string& where) {
   sections.push_back(std::move(s));
 }
 
-/// Returns the minimum fraction of a winglet's height over which it has to turn, so that the skin on the inside of the bend does not fold: the radius of the
-/// bend must exceed the height of the section there.
+/// Returns the minimum fraction of a winglet's height over which the winglet must turn, so that the skin on the inside of the bend does not fold. The radius of
+/// the bend must exceed the height of the section there.
 double least_bend(const GivenSection& tip, double turn, double height) {
-  double inside = 0.0;  // relative to the chord, from the leading edge, normal to the panel
+  double inside = 0.0;  // largest height of the section on the inside, relative to the chord, from the leading edge, normal to the panel
   for (const Uv& p : tip.airfoil.points) {
     const double v = (tip.is_reversed ? -p.v : p.v) - p.u * std::sin(tip.twist);
     inside = std::max(inside, turn > 0.0 ? v : -v);
@@ -279,7 +279,8 @@ double least_bend(const GivenSection& tip, double turn, double height) {
   return inside * tip.chord * std::abs(turn) / height;
 }
 
-/// Returns the fraction over which the winglet bends. \throws Error(bad_argument) through the reader if the requested bend, or any bend, is too tight
+/// Returns the fraction over which the winglet bends. \throws Error(bad_argument) through the reader if the requested bend is too tight, or if every bend would
+/// be
 double bend_of(const WingletOptions& o, const GivenSection& tip, double from, const Point& position, TableReader& reader) {
   const double turn = o.cant - from, least = least_bend(tip, turn, o.height);
   if (o.bend == 0.0) return o.bend;
@@ -298,7 +299,7 @@ double bend_of(const WingletOptions& o, const GivenSection& tip, double from, co
   return bend;
 }
 
-/// Continues upwards from the last section: a bend over sections of equal turn, then straight to the winglet's tip.
+/// Continues the wing upwards from the last section, by a bend of sections with equal turn, then straight to the winglet's tip.
 void SectionList::add_winglet(const ScriptValue& value, const Point& position) {
   const auto* table = std::get_if<TableHandle>(&value);
   if (!table) {
@@ -367,7 +368,7 @@ void complete_rolls(std::vector<GivenSection>& sections, bool is_root_in_plane) 
   }
 }
 
-/// Applies roll about x, then twist about the section's own span axis, as rotations about the fixed axes x, y, z.
+/// Applies roll about x, then twist about the section's own span axis. Both become rotations about the fixed axes x, y, z.
 WingSection section_of(const GivenSection& s) {
   const double cr = std::cos(s.roll), sr = std::sin(s.roll), ct = std::cos(s.twist), st = std::sin(s.twist);
   WingSection section{.name = s.name, .leading_edge = s.leading, .chord = s.chord};
@@ -381,9 +382,9 @@ WingSection section_of(const GivenSection& s) {
   return section;
 }
 
-/// Returns a surface of zero deflection that covers the wing from its tip, its first section, to another section: a named patch.
+/// Returns a deflection of zero angle, which is a named patch. It covers the wing from its first section, the tip, to another section.
 Deflection winglet_patch(const Wing& wing, const std::string& name, std::size_t last_section) {
-  constexpr double k_any_chord = 0.5;  // the hinge position is arbitrary: nothing turns
+  constexpr double k_any_chord = 0.5;  // the position of the hinge is arbitrary, because nothing turns
   const bool has_other_side = wing.is_symmetric || wing.has_mirror_image;
   return {.surface = {.name = name,
                       .wing = wing.name,

@@ -19,12 +19,12 @@ namespace {
 
 using Clock = std::chrono::steady_clock;
 
-/// Maximum number of simultaneous requests: a page keeps one waiting and loads pictures at the same time; enough for a few pages.
+/// Maximum number of simultaneous requests. A page keeps one waiting and loads pictures at the same time, so this is enough for a few pages.
 constexpr std::size_t k_threads = 16;
 constexpr std::size_t k_secret_bytes = 16;
 /// A request must be complete within this time, regardless of its transfer rate.
 constexpr std::chrono::seconds k_most_seconds{10};
-/// Timeout without progress for an answer: megabytes may pass through a slow tunnel.
+/// Time limit of an answer without progress, ms. It is long, because megabytes may pass through a slow tunnel.
 constexpr int k_stall_ms = 30'000;
 
 std::string new_secret() {
@@ -39,7 +39,7 @@ std::string new_secret() {
   return text;
 }
 
-/// Compares in constant time: a guess with a correct beginning takes no longer than any other.
+/// Compares in constant time, so that a guess with a correct beginning takes no longer than any other.
 bool is_same_secret(std::string_view a, std::string_view b) {
   if (a.size() != b.size()) return false;
   unsigned difference = 0;
@@ -47,7 +47,7 @@ bool is_same_secret(std::string_view a, std::string_view b) {
   return difference == 0;
 }
 
-/// Returns true if a Host header refers to this machine; any port is accepted, as it may be that of a tunnel.
+/// Returns true if a Host header refers to this machine. Any port is accepted, because it may be that of a tunnel.
 bool is_local_host(std::string_view host) {
   const std::size_t colon = host.rfind(':');
   const std::string_view name = host.substr(0, colon), port = colon == std::string_view::npos ? std::string_view("80") : host.substr(colon + 1);
@@ -95,7 +95,7 @@ class Connection final : public httplib::Stream {
   std::size_t n_read_ = 0;
 };
 
-/// Tests the size of a request's head before the library reads it line by line, without a limit on the number of lines.
+/// Tests the size of a request's head. The library then reads the head line by line, without a limit on the number of lines.
 bool has_short_head(socket_t socket) {
   std::string head(k_most_head_bytes, '\0');
   const Clock::time_point end = Clock::now() + k_most_seconds;
@@ -117,7 +117,7 @@ bool has_short_head(socket_t socket) {
 
 class Server final : public httplib::Server {
  private:
-  /// Handles one request per connection: the loss for browsers on the same machine is negligible.
+  /// Handles one request per connection. For browsers on the same machine the loss of speed is negligible.
   bool process_and_close_socket(socket_t socket) override {
     fcntl(socket, F_SETFD, FD_CLOEXEC);  // prevents inheritance by workers
     if (has_short_head(socket)) {
@@ -134,7 +134,7 @@ class Server final : public httplib::Server {
 void give(httplib::Response& response, const PageAnswer& answer) {
   response.status = answer.status;
   if (!answer.body || answer.body->empty()) return response.set_content("", std::string(answer.type));
-  // The bytes are shared, not copied: pictures have tens of megabytes.
+  // The bytes are shared and not copied, because pictures have tens of megabytes.
   response.set_content_provider(answer.body->size(), std::string(answer.type),
                                 [body = answer.body](size_t from, size_t n, httplib::DataSink& sink) { return sink.write(body->data() + from, n); });
 }
@@ -156,7 +156,7 @@ struct PageServer::Parts {
   int examine(const httplib::Request& request, std::string& name) const {
     const std::string prefix = "/" + secret + "/";
     if (request.get_header_value_count("Host") != 1 || !is_local_host(request.get_header_value("Host"))) return 403;
-    const std::string path = request.target.substr(0, request.target.find('?'));  // as sent, not decoded
+    const std::string path = request.target.substr(0, request.target.find('?'));  // the path as sent, not decoded
     if (path.size() < prefix.size() || !is_same_secret(std::string_view(path).substr(0, prefix.size()), prefix)) return 404;
     if (request.has_header("Origin") && request.get_header_value("Origin") != "http://" + request.get_header_value("Host")) return 403;
     if (const std::string site = request.get_header_value("Sec-Fetch-Site"); !site.empty() && site != "same-origin" && site != "none") return 403;
@@ -178,7 +178,7 @@ PageServer::PageServer(int port, Answer answer) : parts_(std::make_unique<Parts>
   parts.answer = std::move(answer);
   parts.secret = new_secret();
   parts.server.new_task_queue = [] { return new httplib::ThreadPool(k_threads); };
-  // Leaves out SO_REUSEPORT, by which another process could share the port.
+  // SO_REUSEPORT is not set, because another process could then share the port.
   parts.server.set_socket_options([](socket_t socket) {
     const int yes = 1;
     setsockopt(socket, SOL_SOCKET, SO_REUSEADDR, &yes, sizeof yes);
@@ -195,7 +195,7 @@ PageServer::PageServer(int port, Answer answer) : parts_(std::make_unique<Parts>
   parts.server.set_pre_routing_handler([&parts](const httplib::Request& request, httplib::Response& response) {
     std::string name;
     if (const int status = parts.examine(request, name); status != 0) refuse(response, status);
-    else if (request.method == "POST") return Handled::Unhandled;  // the body is read first
+    else if (request.method == "POST") return Handled::Unhandled;  // POST requests are answered after their body has been read
     else parts.respond(request, response, name);
     return Handled::Handled;
   });
@@ -215,7 +215,7 @@ PageServer::PageServer(int port, Answer answer) : parts_(std::make_unique<Parts>
 }
 
 PageServer::~PageServer() {
-  while (!parts_->server.is_running()) std::this_thread::sleep_for(std::chrono::milliseconds(1));  // stop() before that would be lost
+  while (!parts_->server.is_running()) std::this_thread::sleep_for(std::chrono::milliseconds(1));  // an earlier stop() would be lost
   parts_->server.stop();
   parts_->thread.join();
 }

@@ -1,4 +1,4 @@
-// Serves one page to one user: on 127.0.0.1 only, below a secret in the address. The only component that uses cpp-httplib.
+// Serves one page to one user, on 127.0.0.1 only, below a secret in the address. The only component that uses cpp-httplib.
 #pragma once
 
 #include <functional>
@@ -11,7 +11,7 @@ namespace sterna::scripting {
 
 struct PageRequest {
   bool is_post = false;
-  std::string name;                          ///< part of the path after the secret: "" for the page itself, "state"
+  std::string name;                          ///< the part of the path after the secret: "" for the page itself, or a name such as "state"
   std::map<std::string, std::string> query;  ///< after "?"
   std::string body;                          ///< body of a POST request
   std::string value(const std::string& key) const {
@@ -42,7 +42,7 @@ class PageServer {
   /// \param port 0: any free port. \param answer called from several threads; it may wait for up to half a minute
   /// \throws Error(bad_argument) if the port is taken
   PageServer(int port, Answer answer);
-  /// Waits until all answers have been given: threads that wait in `answer` must be woken first.
+  /// Waits until all answers have been given. Threads that wait in `answer` must be woken first.
   ~PageServer();
   PageServer(const PageServer&) = delete;
   PageServer& operator=(const PageServer&) = delete;

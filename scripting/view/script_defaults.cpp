@@ -34,7 +34,7 @@ std::optional<std::size_t> find_value(const std::string& s, std::size_t begin, s
   return value == std::string::npos ? std::nullopt : std::optional(value);
 }
 
-/// Returns the range {from, to} of the default of `name`. Script and modules may have several args{}.
+/// Returns the range {from, to} of the default of `name`. Script and modules may have several args{}, of which one must contain it.
 std::pair<std::size_t, std::size_t> find_default(const std::string& s, const std::string& name) {
   const std::vector<TableCall> tables = table_calls(s, "args");
   if (tables.empty()) refuse_default("the script has no args{ ... }");

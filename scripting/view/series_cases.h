@@ -12,8 +12,8 @@ bool is_series_folder(const std::filesystem::path& folder);
 
 struct SeriesCases {
   std::string script;  ///< cases are numbered from 1; cases without a mesh or a surface are left out
-  /// JSON list: name, parameters, status, verdict, quality, cells, gates (state by name), result, message; `case`: number in the script or null; `picture`:
-  /// index into `pictures` or null.
+  /// JSON list of cases with name, parameters, status, verdict, quality, cells, gates (state by name), result and message. `case` is the number in the script,
+  /// or null; `picture` is an index into `pictures`, or null.
   std::string json;
   std::vector<std::filesystem::path> pictures;  ///< PNG files that the cases have written
 };

@@ -64,7 +64,7 @@ SurfaceField curvature_field(std::vector<double> values) {
 
 SceneJson place_of(const Point& p) { return SceneJson::array({p.x, p.y, p.z}); }
 
-/// Returns the data of a wing section: leading edge, chord, angles, airfoil; a section given as a loop has the chord of the loop.
+/// Returns the data of a wing section: leading edge, chord, angles, airfoil. If the section is given as a loop, its chord is that of the loop.
 SceneJson section_json(const WingSection& section, const Transform& map, std::size_t number) {
   constexpr double k_degrees = 180.0 / std::numbers::pi;
   SceneJson entry = {{"name", section.name.empty() ? "section " + std::to_string(number) : section.name}};
@@ -128,7 +128,7 @@ void add_model_facts(SceneJson& scene, const ModelValue& value, const RunContext
   scene["components"] = std::move(components);
 }
 
-/// Facet tolerance of a sketch as a fraction of the model's longest side: four times as coarse, with half the triangles.
+/// Facet tolerance of a sketch as a fraction of the model's longest side. It is four times as coarse as usual and gives half the triangles.
 constexpr double k_sketch_tolerance = 8e-4;
 
 surfmesh::FacetOptions facet_options(const SceneOptions& options) {
@@ -139,7 +139,7 @@ surfmesh::FacetOptions facet_options(const SceneOptions& options) {
 std::string model_scene(const ModelValue& value, const SceneOptions& options, const RunContext& context) {
   const Model& model = value.model;
   surfmesh::ModelFacets facets = surfmesh::facets_of(model, facet_options(options), context);
-  // One patch per name within a component, as in meshes; sorted by name, so that a sketch has the same colours as the united model.
+  // There is one patch per name within a component, as in meshes. Patches are sorted by name, so that a sketch has the same colours as the united model.
   const auto key_of = [&](const ModelFace& face) {
     return std::pair(face.component.is_valid() ? model.components[face.component].name : std::string(), face.name);
   };
@@ -261,7 +261,8 @@ std::string mesh_scene(const MeshValue& value, const SceneOptions& options, cons
 }  // namespace
 
 bool is_drawable(const ScriptValue& value) {
-  if (const auto* mesh = std::get_if<MeshHandle>(&value)) return count_cells((*mesh)->mesh).total() > 0;  // a surface file, read as a mesh
+  if (const auto* mesh = std::get_if<MeshHandle>(&value))
+    return count_cells((*mesh)->mesh).total() > 0;  // otherwise it is a surface file that was read as a mesh
   return std::holds_alternative<ModelHandle>(value) || std::holds_alternative<ComponentHandle>(value) || std::holds_alternative<SurfaceHandle>(value) ||
          std::holds_alternative<EnvelopeHandle>(value) || std::holds_alternative<TetrahedraHandle>(value);
 }

@@ -69,7 +69,7 @@ std::pair<std::string, int> file_and_line(std::string_view text) {
 
 WorkerJson problem_json(const Error& error) {
   const ErrorInfo& info = error.info();
-  // Lua's own messages have the location in the problem; messages of verbs have it before the attempted action.
+  // In Lua's own messages the location is in the problem; in messages of verbs it is before the attempted action.
   auto place = file_and_line(info.attempted);
   if (place.second == 0) place = file_and_line(info.problem);
   WorkerJson places = WorkerJson::array();
@@ -135,7 +135,7 @@ class Worker {
     }
     const bool has_left_out = pass(Mode::sketch);
     if (mode == "sketch") return end("sketch", true);
-    if (!has_left_out) return end("geometry", true);  // not a sketch after all: measures and problems count
+    if (!has_left_out) return end("geometry", true);  // no union was left out, so this is the geometry: its measures and problems count
     end("sketch", false);
     pass(Mode::geometry);
     end("geometry", true);
@@ -218,7 +218,7 @@ class Worker {
     std::string where = call.where;
     while (where.ends_with(' ') || where.ends_with(':')) where.pop_back();
     objects_.push_back({.value = value, .verb = std::string(call.verb), .where = std::move(where), .name = {}});
-    // Meshes take long: they are shown immediately, before their variables are known.
+    // Meshes take long to make. They are therefore shown immediately, before their variables are known.
     if (mode_ == Mode::mesh && !std::holds_alternative<ComponentHandle>(value) && !std::holds_alternative<ModelHandle>(value)) {
       send_objects("mesh", false);
       send_scene(objects_.size() - 1, false);
@@ -235,7 +235,7 @@ class Worker {
 
   // ---- Reports to the page
 
-  /// Returns the keys by which the page identifies objects in the next run: the variable, or the verb and the number of its call.
+  /// Returns the keys by which the page identifies objects in the next run. A key is the variable, or the verb and the number of its call.
   std::vector<std::string> keys() const {
     std::vector<std::string> list;
     for (const MadeObject& object : objects_) {
@@ -247,8 +247,8 @@ class Worker {
     return list;
   }
 
-  /// Returns the objects shown by default: the last object made, preferably of the script's own variables; components only if nothing is made of them. If the
-  /// script failed half way, the objects shown before: its last object is then an arbitrary part.
+  /// Returns the objects shown by default: the last object made, preferably one of the script's own variables. Components are shown only if nothing is made of
+  /// them. If the script failed half way, the objects that were shown before are returned, because the last object is then an arbitrary part.
   std::vector<bool> shown() const {
     const auto is_component = [](const MadeObject& object) { return std::holds_alternative<ComponentHandle>(object.value); };
     std::vector<bool> list(objects_.size(), false);
@@ -262,7 +262,7 @@ class Worker {
       for (std::size_t i = 0; i < objects_.size(); ++i)
         if (!is_component(objects_[i]) && (!must_be_named || objects_[i].is_of_script)) last = i;
     if (last < list.size()) list[last] = true;
-    else if (problems_.empty())  // a script that failed half way has made only parts
+    else if (problems_.empty())  // not after a failure, because a script that failed half way has made only parts
       for (std::size_t i = 0; i < list.size(); ++i) list[i] = is_component(objects_[i]);
     return list;
   }
@@ -340,8 +340,8 @@ class Worker {
   WorkerClock::time_point start_;
   TimeLeft left_;
   OptionOverrides arguments_;
-  std::vector<std::string> wanted_, unwanted_;  ///< keys of objects that the user shows, hides
-  std::vector<std::string> kept_;               ///< keys shown before without the user's choice
+  std::vector<std::string> wanted_, unwanted_;  ///< keys of objects that the user has chosen to show and to hide
+  std::vector<std::string> kept_;               ///< keys of objects that were shown before without the user's choice
   std::optional<RunContext> run_;
   std::vector<MadeObject> objects_;
   WorkerJson problems_ = WorkerJson::array();

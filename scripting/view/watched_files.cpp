@@ -17,7 +17,7 @@ std::string text_of_file(const std::filesystem::path& path) {
   return {std::istreambuf_iterator<char>(file), {}};
 }
 
-/// Returns the quoted strings.
+/// Returns the strings in quotes.
 std::vector<std::string> quoted_names(const std::string& text) {
   std::vector<std::string> names;
   for (std::size_t at = 0; (at = text.find_first_of("\"'", at)) != std::string::npos;) {
@@ -72,8 +72,8 @@ bool WatchedFiles::have_changed() {
   std::vector<File> now;
   for (const File& file : files_) now.push_back(seen(file.path));
   if (now == files_) return false;
-  if (now != std::exchange(pending_, now)) return false;  // the file may still be being written
-  if (now.front().stamp == 0) return false;               // an editor is about to replace the file
+  if (now != std::exchange(pending_, now)) return false;  // wait, because the file may still be being written
+  if (now.front().stamp == 0) return false;               // wait, because an editor is about to replace the file
   std::string text = text_of_file(script_);
   const bool is_other = text != text_ || !std::equal(now.begin() + 1, now.end(), files_.begin() + 1);
   text_ = std::move(text);

@@ -1,5 +1,5 @@
-// Threads: follow() starts, feeds and ends the workers; one reader per worker takes its answers; the server's threads answer the page. All share State under
-// one mutex; every change raises its version and wakes the waiting threads.
+// There are three kinds of threads. follow() starts, feeds and ends the workers; one reader per worker takes its answers; the server's threads answer the page.
+// All share State under one mutex; every change raises its version and wakes the waiting threads.
 #include "scripting/view/workbench.h"
 
 #include <algorithm>
@@ -32,14 +32,14 @@ using BenchClock = std::chrono::steady_clock;
 using namespace std::chrono_literals;
 
 constexpr auto k_look_interval = 60ms;      ///< between checks of the files
-constexpr auto k_page_patience = 20s;       ///< an answer without news is given after this time
+constexpr auto k_page_patience = 20s;       ///< if there is no news, an answer without news is given after this time
 constexpr auto k_ask_patience = 60s;        ///< waiting time of the page for a cut or an inspection
-constexpr auto k_sketch_patience = 1500ms;  ///< a sketch may finish within this time before a newer one replaces it
-constexpr auto k_quick_sketch = 300ms;      ///< longer sketches show their progress
-constexpr auto k_end_patience = 3s;         ///< a worker is killed this long after a stop request
-constexpr std::size_t k_most_lines = 400;   ///< in the log
+constexpr auto k_sketch_patience = 1500ms;  ///< time in which a sketch may finish before a newer one replaces it
+constexpr auto k_quick_sketch = 300ms;      ///< sketches that take longer than this show their progress
+constexpr auto k_end_patience = 3s;         ///< time after a stop request at which a worker is killed
+constexpr std::size_t k_most_lines = 400;   ///< maximum number of lines in the log
 
-/// One object of the picture. It is kept, marked old, until a completed run has made it again or not at all.
+/// One object of the picture. It is kept, marked as old, until a completed run has made it again or has not made it.
 struct ShownObject {
   BenchJson about;  ///< as reported by the worker: key, kind, verb, file, line, is_shown, text
   int run = 0;
@@ -57,7 +57,7 @@ struct ShownObject {
 struct State {
   std::uint64_t version = 1, scenes = 0;
   int run = 0;
-  std::string mode, status = "starting";  ///< running, done, failed, stopped
+  std::string mode, status = "starting";  ///< status: running, done, failed or stopped
   std::string stage;
   double share = 0.0;
   BenchJson left = nullptr, problems = BenchJson::array(), parameters = BenchJson::array();
@@ -65,7 +65,7 @@ struct State {
   BenchClock::time_point started{};
   std::vector<ShownObject> objects;
   std::map<std::string, std::string> values;  ///< arguments that differ from the script
-  std::vector<std::string> wanted, unwanted;  ///< keys
+  std::vector<std::string> wanted, unwanted;  ///< keys of objects that the user has chosen to show and to hide
   std::deque<BenchJson> lines;                ///< in the log
   std::uint64_t n_lines = 0;
   std::map<int, std::shared_ptr<const std::string>> asked;  ///< answers by request number
@@ -269,7 +269,7 @@ class Workbench::Parts {
     return json_answer({{"ok", true}});
   }
 
-  /// Requests a cut through an object, or an inspection, from the worker and waits for the result.
+  /// Requests a cut through an object, or an inspection, from the worker, and waits for the result.
   PageAnswer asked_of_object(const char* what, const BenchJson& body, std::string_view type) {
     const std::string key = body.value("key", "");
     std::unique_lock lock(mutex_);
@@ -300,7 +300,7 @@ class Workbench::Parts {
     if (values.empty()) return refusal("all values are those of the script already");
     io::write_whole(settings_.script, with_defaults(read_script(settings_.script), values));
     const std::lock_guard lock(mutex_);
-    state_.values.clear();  // the script now has them; the file watcher detects the change
+    state_.values.clear();  // the values are now in the script; the file watcher detects the change
     return json_answer({{"ok", true}});
   }
 
@@ -308,7 +308,7 @@ class Workbench::Parts {
 
   void ask_for(const std::string& mode) {
     const std::lock_guard lock(mutex_);
-    // The new request replaces a pending one and covers it, except for a mesh, which no other run makes.
+    // The new request replaces a pending one and covers it. A pending mesh stays, because no other run makes it.
     if (asked_mode_ != "mesh") asked_mode_ = mode;
     is_step_due_ = true;
     changed_.notify_all();
@@ -326,7 +326,7 @@ class Workbench::Parts {
     if (worker_ && worker_->is_gone) take_lost_worker();
     if (!asked_mode_.empty()) {
       const bool is_sketching = worker_ && worker_->is_busy && worker_->mode == "sketch" && BenchClock::now() - worker_->since < k_sketch_patience;
-      if (is_sketching) return;  // the sketch will finish soon, and the next one follows
+      if (is_sketching) return;  // wait, because the sketch will finish soon, and the next one follows
       if (worker_ && worker_->is_busy) retire();
       if (!worker_) start_worker();
       if (worker_) begin_run();
@@ -458,7 +458,7 @@ class Workbench::Parts {
 
   void read_answers(WorkerProcess& worker) {
     std::string text;
-    std::size_t n_bytes = 0;  // that belong to `line`
+    std::size_t n_bytes = 0;  // number of bytes that belong to `line`
     BenchJson line;
     const auto take = [&] {
       for (;;) {
@@ -495,7 +495,7 @@ class Workbench::Parts {
 
   void note(WorkerProcess& worker, const BenchJson& line, std::shared_ptr<const std::string> bytes) {
     const std::lock_guard lock(mutex_);
-    if (worker_.get() != &worker || line.value("run", -1) != state_.run) return;  // from a run that was superseded
+    if (worker_.get() != &worker || line.value("run", -1) != state_.run) return;  // the answer is from a run that was superseded
     const std::string is = line.value("is", "");
     if (is == "log") note_line(line);
     else if (is == "progress") {
@@ -508,7 +508,7 @@ class Workbench::Parts {
     else if (is == "asked") state_.asked[line.value("ask", 0)] = std::move(bytes);
     else if (is == "failed") note_failure(line);
     else if (is == "ended") note_end(worker, line);
-    // A sketch is reported once, when complete: while a slider moves, the page has no time for intermediate steps.
+    // A sketch is reported once, when it is complete. While a slider moves, the page has no time for intermediate steps.
     const bool is_step_of_sketch =
         is != "ended" && is != "asked" && worker.mode == "sketch" && worker.is_busy && BenchClock::now() - worker.since < k_quick_sketch;
     if (!is_step_of_sketch) tell_change();
@@ -520,7 +520,7 @@ class Workbench::Parts {
     if (state_.lines.size() > k_most_lines) state_.lines.pop_front();
   }
 
-  /// Drops values of arguments that the script no longer has; the script then runs without them.
+  /// Drops values of arguments that the script no longer has. The script then runs without them.
   void note_parameters(const BenchJson& list, bool is_complete) {
     state_.parameters = list;
     if (!is_complete) return;  // a module may declare more

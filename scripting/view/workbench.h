@@ -14,12 +14,12 @@ namespace sterna::scripting {
 
 struct WorkbenchSettings {
   std::filesystem::path input;     ///< the user's input: a script, or the file of a model, a surface, a mesh
-  std::filesystem::path script;    ///< script to be run: the input, or a script generated to read the input
-  bool is_made_script = false;     ///< generated script: run unchanged, without arguments to write back
+  std::filesystem::path script;    ///< script that is run: the input, or a script generated to read the input
+  bool is_made_script = false;     ///< the script was generated; it has no arguments to write back
   OptionOverrides arguments;       ///< initial NAME=VALUE
   std::vector<std::string> words;  ///< command line of a worker after the program's name
   std::string_view page;           ///< HTML
-  std::string cases;               ///< JSON list of the cases of a finished series (series_cases.h); empty: not a series
+  std::string cases;               ///< JSON list of the cases of a finished series (series_cases.h); empty if the input is no series
   std::vector<std::filesystem::path> pictures;
 };
 
