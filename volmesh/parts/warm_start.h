@@ -1,4 +1,4 @@
-// The envelope of a deformed wall, started from the envelope of the undeformed wall and not made from scratch.
+// The envelope of a deformed wall. It starts from the envelope of the undeformed wall and is not made from scratch.
 #pragma once
 
 #include <functional>
@@ -10,20 +10,20 @@
 
 namespace sterna::volmesh {
 
-/// An envelope and the points of its wall, both in any common frame.
+/// An envelope and the points of its wall, both in the same frame.
 struct StartingEnvelope {
   Column<VertexId, Point> points;
   Envelope envelope;
 };
 
-/// Largest loss, as a share of the wall's area, of area with full height (0.9 of the target) against the start. With a larger loss the user would see that
-/// the layer is worse.
+/// Largest loss of area with full height (0.9 of the target) against the start, as a fraction of the wall's area. With a larger loss the layer would be
+/// noticeably worse.
 inline constexpr double k_lost_coverage = 0.02;
 
 struct WarmStart {
   std::optional<Envelope> envelope;  ///< empty: the envelope has to be made from scratch
-  std::string objection;             ///< reason, if there is no envelope
-  Point place{};                     ///< location of the reason
+  std::string objection;             ///< reason why there is no envelope
+  Point place{};                     ///< location to which the reason refers
 };
 
 /// Starts from an envelope of a wall with the same triangles. Directions turn with the wall: by the rotation that maps normal and an edge of a vertex from
