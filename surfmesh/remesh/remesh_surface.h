@@ -156,7 +156,7 @@ struct Schema<surfmesh::RemeshOptions> {
                .member = &O::chord_error,
                .unit = Unit::metre,
                .min = 1e-9,
-               .help = "largest distance between the middle of an edge and the surface, from the curvature",
+               .help = "largest distance between the midpoint of an edge and the curved surface; edges are made short enough for this, by the curvature",
                .automatic = "no limit"},
       Field<O>{.name = "growth", .member = &O::growth, .min = 1.01, .max = 3.0, .help = "largest ratio of the lengths of consecutive edges"},
       Field<O>{.name = "refinement",

@@ -36,8 +36,8 @@ struct Schema<volmesh::FamilyOptions> {
                .choices = volmesh::k_family_names},
       Field<O>{.name = "family_wake",
                .member = &O::family_wake,
-               .help = "adds the source wake{ wall } if no source is given; its edges are divided by f, so that the wakes of the members differ by the same "
-                       "factor; automatic: added if refinement is given",
+               .help = "adds the source wake{ wall } if no source is given; the edge lengths of that source are divided by the refinement factor f, so that "
+                       "the wakes of the members differ by the same factor; automatic: added if refinement is given",
                .choices = "automatic on off"},
   };
 };

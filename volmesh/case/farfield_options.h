@@ -125,8 +125,9 @@ struct Schema<volmesh::FarfieldOptions> {
                        "empty: no floor"},
       Field<O>{.name = "farfield_sides",
                .member = &O::farfield_sides,
-               .help = "kinds, names and edge lengths of the farfield sides (box: x_min .. z_max; cylinder: start, end, side; else patches) and of the "
-                       "symmetry plane of a half model (symmetry): \"x_min=inflow x_max=outflow,name:exit,edge:0.5\"; empty: all farfield"},
+               .help = "kinds, names and edge lengths of the farfield sides, as SIDE=KIND[,name:NAME][,edge:LENGTH] separated by blanks, e.g. \"x_min=inflow "
+                       "x_max=outflow,name:exit,edge:0.5\". Sides of a box: x_min to z_max; of a cylinder: start, end, side; of a farfield surface: its "
+                       "patches; symmetry plane of a half model: symmetry; empty: all sides have kind farfield"},
       Field<O>{.name = "farfield_surface", .member = &O::farfield_surface, .help = "file of the closed farfield surface, for the shape \"surface\""},
   };
 };

@@ -203,9 +203,10 @@ class DomainSplitter {
       }
     }
     if (pinched.empty()) return;
-    ErrorInfo info = error(
-        ErrorCode::non_manifold_surface, "walls with layers touch in " + std::to_string(pinched.size()) + " single points, between patches without layers",
-        "give layers to one of the patches around this location, or remove the layers of the walls there (patches = { name = { layers = 0 } })");
+    ErrorInfo info =
+        error(ErrorCode::non_manifold_surface,
+              "at " + std::to_string(pinched.size()) + " points walls with layers meet only in that point, with patches without layers between them",
+              "give layers to one of the patches around this location, or remove the layers of the walls there (patches = { name = { layers = 0 } })");
     for (std::size_t i = 0; i < std::min(pinched.size(), k_max_places); ++i)
       info.places.push_back({surface_.points[pinched[i]], "vertex " + std::to_string(pinched[i].value())});
     throw Error(std::move(info));

@@ -104,7 +104,7 @@ InspectReport inspect_triangles(const TriMesh& triangles, const InspectRequest& 
   const Survey survey{report.mesh, request, context, report};
   survey_unit(survey);
   survey_needles(survey);
-  leave_out(survey, "crossings, folds, visibility, gaps, heights of the layer", "the triangles could not be joined into a surface",
+  leave_out(survey, "crossings, folds, growth directions, gaps and layer heights", "the triangles could not be joined into a surface",
             "repair the findings of severity error first");
   return report;
 }
