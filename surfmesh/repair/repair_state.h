@@ -86,9 +86,10 @@ struct SolidReference {
 /// \pre the surface is closed; it may cross itself
 SolidReference solid_reference(const RepairState& state, bool is_fluid_inside, const RunContext& context);
 
-/// Keeps facets with solid on one side, oriented away from the solid. \pre nothing crosses. Sides form cells between facets; cells that are not connected to
-/// the outside are solid. Winding numbers of `reference` decide if it has cavities, or if open edges connect the outside to a region that they define as solid.
-/// Returns false and changes nothing if hardly any facet would remain.
+/// Keeps facets with solid on one side, oriented away from the solid. Sides form cells between facets; cells that are not connected to the outside are solid.
+/// In two cases the winding numbers of `reference` are used instead: if `reference` has cavities, or if open edges connect the outside to a region that is
+/// solid by its winding number. Returns false and changes nothing if hardly any facet would remain.
+/// \pre nothing crosses
 bool keep_outer_hull(RepairState& state, const SolidReference& reference, const RunContext& context);
 
 /// Input of separate_touching for the treatment of parts that touch.

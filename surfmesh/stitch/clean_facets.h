@@ -16,12 +16,13 @@ void drop_degenerate_facets(WorkingSurface& surface, StitchReport& report);
 /// \pre no facet has a repeated vertex.
 void drop_doubled_facets(WorkingSurface& surface, StitchReport& report);
 
+/// Removes facets of exactly zero area (three different vertices on a line) without moving the surface. The middle vertex lies on the long edge, so a flip of
+/// that edge passes the vertex to the neighbour, which is split there. Such facets typically fill T-junctions.
 /// \pre at most two facets at each edge, consistent orientation. \return facets for which no flip was possible
-/// flag for each facet
 std::vector<std::uint32_t> flip_flat_facets(WorkingSurface& surface, StitchReport& report);
 
 struct ThinParts {
-  std::vector<char> is_thin;  ///< per facet
+  std::vector<char> is_thin;  ///< flag of each facet
   std::int64_t count = 0;     ///< number of thin parts
 };
 

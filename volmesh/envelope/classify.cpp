@@ -34,8 +34,8 @@ struct FeatureEdges {
   }
 };
 
-/// Returns the normal of the triangle beyond a boundary edge. If a surface contains the edge, this is the mirror image of the edge's triangle. Otherwise it is
-/// the normal of the edge's own triangle.
+/// Returns the normal of the triangle beyond a boundary edge. If a constraint surface contains the edge, that triangle is the mirror image of the edge's own
+/// triangle. Otherwise returns the normal of the edge's own triangle.
 Vec3 normal_beyond(const LayerBase& base, HalfedgeId h) {
   const Vec3& own = base.unit_normal[triangle_of(h)];
   const VertexId from = base.topology.from(h), to = base.topology.to(h);

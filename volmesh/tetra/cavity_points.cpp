@@ -1,11 +1,11 @@
+// One point in each solid region of a wall.
+//
 // TetGen removes a cavity if it gets a point inside it. There may be several bodies, and bodies may be hollow, nested or extremely thin. Steps: Find shells,
 // which are components connected across edges. For each shell, find a point behind one of its largest triangles (`point_behind`). For this, all crossings of a
 // line along a coordinate axis through the triangle with the wall are computed; the point is the middle of the segment from the triangle to the next crossing.
 // Count the winding number of the point about every shell on that line, with exact predicates (`windings`). The sum must be 1, otherwise the region is not
 // solid. Centre the point along the axes in turn. Of the points of all triangles, use the one with the largest clearance. Points inside the same shells are in
 // the same region (because shells do not intersect), so one point is kept for each set of shells.
-//
-// number of triangles that are tried for each shell, largest first
 
 #include <algorithm>
 #include <array>
@@ -25,26 +25,26 @@
 namespace sterna::volmesh {
 namespace {
 
-constexpr std::size_t k_triangles_tried = 8;  ///< Weights of the point at which a triangle is pierced. They are uneven, so that lines do not hit the edges and
-                                              ///< vertices of regular meshes. If a line hits an edge, the next set is used.
-/// rounded coordinate along the axis; it is used only to find segments
+constexpr std::size_t k_triangles_tried = 8;  ///< number of triangles that are tried for each shell, largest first
+/// Weights of the point at which a triangle is pierced. They are uneven, so that lines do not hit the edges and vertices of regular meshes. If a line hits an
+/// edge, the next set is used.
 constexpr std::array<std::array<double, 3>, 5> k_weights = {
     {{0.43, 0.31, 0.26}, {0.2713, 0.4127, 0.316}, {0.361, 0.2117, 0.4273}, {0.5519, 0.1709, 0.2772}, {0.1373, 0.2939, 0.5688}}};
 
 struct Crossing {
   TriangleId triangle;
-  double at = 0.0;  ///< +1 if the triangle's normal points along the axis, else -1
-  int sense = 0;    ///< The shells around a point with the winding number about each, ascending. Shells with the winding number 0 are left out.
+  double at = 0.0;  ///< rounded coordinate along the axis; it is used only to find segments
+  int sense = 0;    ///< +1 if the triangle's normal points along the axis, else -1
 };
 
-/// Returns the crossings with the line through p along an axis, sorted along the line; nothing if the line touches an edge or a vertex.
+/// The shells around a point with the winding number about each, ascending. Shells with the winding number 0 are left out.
 using Windings = std::vector<std::pair<std::uint32_t, int>>;
 
 class Wall {
  public:
   Wall(const TriMesh& mesh, const Components& shells, const RunContext& context) : mesh_(mesh), shells_(shells), tree_(boxes_of(mesh, context), context) {}
 
-  /// Returns the exact winding numbers from the crossings with the line through p; nothing if p lies on a triangle.
+  /// Returns the crossings with the line through p along an axis, sorted along the line; nothing if the line touches an edge or a vertex.
   std::optional<std::vector<Crossing>> crossings(const Vec3& p, std::size_t axis) const {
     Box line;
     line.min = line.max = p;
@@ -64,16 +64,14 @@ class Wall {
     return found;
   }
 
-  /// Winding numbers, exact, from the crossings with the line through p. Nothing if p lies on a triangle.
+  /// Returns the exact winding numbers from the crossings with the line through p; nothing if p lies on a triangle.
   std::optional<Windings> windings(const Vec3& p, const std::vector<Crossing>& crossings) const {
     std::map<std::uint32_t, int> sum;
     for (const Crossing& crossing : crossings) {
       const auto [a, b, c] = corners(mesh_, crossing.triangle);
       const int side = orient3d(a, b, c, p);
       if (side == 0) return std::nullopt;
-      if (side == -crossing.sense)
-        sum[shells_.component[crossing.triangle]] +=
-            crossing.sense;  // Returns the orientation of a crossing; 0: there is no crossing. Exact, in the projection along the axis.
+      if (side == -crossing.sense) sum[shells_.component[crossing.triangle]] += crossing.sense;  // the crossing lies ahead of p
     }
     Windings result;
     for (const auto& [shell, winding] : sum) {
@@ -90,7 +88,7 @@ class Wall {
     });
     return boxes;
   }
-  /// Returns the largest triangles of each shell, in descending order of area.
+  /// Returns the orientation of a crossing; 0: there is no crossing. Exact, in the projection along the axis.
   int sense_of_crossing(TriangleId t, const Vec3& p, std::size_t axis, bool& is_degenerate) const {
     const std::size_t u = (axis + 1) % 3, v = (axis + 2) % 3;
     const auto flat = [&](const Vec3& q) { return Vec2{q[u], q[v]}; };
@@ -119,7 +117,7 @@ class Wall {
   BoxTree tree_;
 };
 
-/// The largest triangles of each shell, shell after shell, in descending order of area.
+/// Returns the largest triangles of each shell, in descending order of area.
 std::vector<std::vector<TriangleId>> largest_triangles(const TriMesh& wall, const Components& shells) {
   std::vector<std::vector<std::pair<double, TriangleId>>> best(shells.count);
   const auto is_before = [](const auto& a, const auto& b) { return a.first != b.first ? a.first > b.first : a.second < b.second; };

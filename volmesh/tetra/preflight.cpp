@@ -14,18 +14,18 @@
 namespace sterna::volmesh {
 namespace {
 
-constexpr std::size_t k_triangle_chunk = 512;   ///< largest number of stored findings of each kind
-constexpr std::int64_t k_findings_kept = 1000;  ///< number of digits in messages
-constexpr int k_angle_digits = 3;  ///< A triangle with a smaller ratio of height to longest edge has no normal that could separate it from other triangles.
-/// Upper bound of the rounding error of a distance to a plane, relative to the largest coordinate.
+constexpr std::size_t k_triangle_chunk = 512;   ///< triangles per task, which takes about 2 ms
+constexpr std::int64_t k_findings_kept = 1000;  ///< largest number of stored findings of each kind
+constexpr int k_angle_digits = 3;               ///< number of digits in messages
+/// A triangle with a smaller ratio of height to longest edge has no normal that could separate it from other triangles.
 constexpr double k_flat_sine = 1e-6;
-/// unit normal; zero for a flat triangle
+/// Upper bound of the rounding error of a distance to a plane, relative to the largest coordinate.
 constexpr double k_rounding = 1e-12;
 
 struct Shape {
-  Vec3 normal;  ///< ratio of the smallest height to the longest edge
+  Vec3 normal;  ///< unit normal; zero for a flat triangle
   double mean_edge = 0.0;
-  double flatness = 0.0;  ///< Returns the distance of two segments that have no common point.
+  double flatness = 0.0;  ///< ratio of the smallest height to the longest edge
 };
 
 Shape shape_of(const Vec3& a, const Vec3& b, const Vec3& c) {
@@ -47,7 +47,7 @@ double point_to_segment(const Vec3& p, const Vec3& a, const Vec3& b) {
   return distance(p, a + t * d);
 }
 
-/// Returns the distance of two triangles that have no common point. A flat triangle is represented by its edges.
+/// Returns the distance of two segments that have no common point.
 double segment_to_segment(const Vec3& a, const Vec3& b, const Vec3& c, const Vec3& d) {
   const Vec3 u = b - a, v = d - c, w = a - c;
   const double uu = norm2(u), uv = dot(u, v), vv = norm2(v), uw = dot(u, w), vw = dot(v, w);
@@ -59,7 +59,7 @@ double segment_to_segment(const Vec3& a, const Vec3& b, const Vec3& c, const Vec
   return std::min({point_to_segment(a, c, d), point_to_segment(b, c, d), point_to_segment(c, a, b), point_to_segment(d, a, b)});
 }
 
-/// the condition is also true for n = 0
+/// Returns the distance of two triangles that have no common point. A flat triangle is represented by its edges.
 double triangle_to_triangle(const std::array<Vec3, 3>& p, const Vec3& p_normal, const std::array<Vec3, 3>& q, const Vec3& q_normal) {
   double least = std::numeric_limits<double>::infinity();
   for (std::size_t i = 0; i < 3; ++i) {
@@ -67,7 +67,7 @@ double triangle_to_triangle(const std::array<Vec3, 3>& p, const Vec3& p_normal, 
   }
   const auto above_face = [&](const Vec3& x, const std::array<Vec3, 3>& t, const Vec3& n) {
     for (std::size_t k = 0; k < 3; ++k) {
-      if (dot(cross(t[(k + 1) % 3] - t[k], x - t[k]), n) <= 0.0) return;  // also for n = 0
+      if (dot(cross(t[(k + 1) % 3] - t[k], x - t[k]), n) <= 0.0) return;  // the condition is also true for n = 0
     }
     least = std::min(least, std::abs(dot(x - t[0], n)));
   };
