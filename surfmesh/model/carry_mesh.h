@@ -1,4 +1,4 @@
-// Transfer of a surface mesh to another model of the same structure, such as a deformed one: same triangles, every vertex at the same parameters.
+// Transfer of a surface mesh to another model of the same structure, such as a deformed one. Triangles and parameters stay the same.
 #pragma once
 
 #include <optional>
@@ -24,11 +24,11 @@ Column<VertexId, Point> carried_points(const StructuredMesh& from, const Model& 
 /// A triangle must keep at least this fraction of its smallest angle, or of k_good_angle if that is less. After a loss of 30 % a triangle is mostly still as
 /// good as the worst triangles that the mesher itself makes.
 inline constexpr double k_kept_angle = 0.7;
-/// rad: triangles that keep the fraction k_kept_angle of this angle are accepted, however regular they were before.
+/// Rad: triangles that keep the fraction k_kept_angle of this angle are accepted, however regular they were before.
 inline constexpr double k_good_angle = 30.0 * 3.14159265358979323846 / 180.0;
 /// Largest factor by which edges may become longer or shorter: the target sizes then hold within two rows of growth 1.2.
 inline constexpr double k_edge_stretch = 1.5;
-/// rad: the normal deviation may exceed the reference's worst value of that face, or the face's curvature angle, by at most this angle.
+/// Rad: the normal deviation may exceed the reference's worst value of that face, or the face's curvature angle, by at most this angle.
 inline constexpr double k_normal_slack = 10.0 * 3.14159265358979323846 / 180.0;
 
 struct CarriedMesh {

@@ -19,14 +19,14 @@ struct ThicknessOptions {
   std::string thickness_law = "fifth_root";
 };
 
-/// Skin friction coefficient tau_w / (rho U^2 / 2) of a turbulent flat plate of this Reynolds number, incompressible, by the law of that name:
+/// Returns the skin friction coefficient tau_w / (rho U^2 / 2) of a turbulent flat plate in incompressible flow at this Reynolds number. The laws are:
 ///   schlichting          local, (2 lg Re - 0.65)^-2.3, Re up to 1e9 [H. Schlichting, Boundary-Layer Theory, 7th ed., ch. XXI]
 ///   seventh_root         local, 0.026 Re^(-1/7) [F. M. White, Viscous Fluid Flow, from the 1/7 power law of the velocity]
 ///   kays_crawford        local, 0.0574 Re^-0.2 (cf/2 = 0.0287 Re^-0.2), 5e5 .. 1e7 [W. M. Kays, M. E. Crawford, Convective Heat and Mass Transfer]
 ///   prandtl              local, 0.0592 Re^-0.2, 5e5 .. 1e7 [L. Prandtl; Schlichting, ch. XXI]
 ///   prandtl_schlichting  mean of the plate, 0.455 (lg Re)^-2.58, up to 1e9 [Schlichting, ch. XXI]
 ///   ittc57               mean with a form allowance, 0.075 (lg Re - 2)^-2, the ship-model correlation line of 1957 [8th ITTC, Madrid 1957]
-/// The first two meet the spacings of the DPW-4 gridding guidelines within 2 %.
+/// The first two laws agree with the spacings of the DPW-4 gridding guidelines within 2 %.
 /// \throws Error(bad_argument) for another name, and for Reynolds numbers below k_least_reynolds or above k_largest_reynolds, for which none of the formulas is
 /// valid
 double skin_friction(const std::string& law, double reynolds);
@@ -48,7 +48,7 @@ struct FirstHeight {
 /// \throws the errors of skin_friction
 FirstHeight first_height(const FirstHeightOptions& options, const FlowState& flow);
 
-/// m, factor times the thickness (99 % of the speed) of a turbulent layer after the flow's length:
+/// Returns the thickness in metres (99 % of the speed) of a turbulent boundary layer at the end of the flow's length, times the factor. The laws are:
 ///   fifth_root    0.37 L Re^-0.2 [Schlichting, ch. XXI]
 ///   seventh_root  0.16 L Re^(-1/7) [White], better above Re 1e7
 /// \throws the errors of skin_friction
