@@ -18,8 +18,8 @@
 namespace sterna::volmesh {
 namespace {
 
-constexpr const char* k_recovery_failure =
-    "recovery of the boundary";  ///< text of the failure after which another engine made the recovery for sterna's own engine
+/// Text of the failure after which another engine made the recovery for sterna's own engine.
+constexpr const char* k_recovery_failure = "recovery of the boundary";
 
 struct SmallFace {
   std::array<std::uint32_t, 3> corners;  ///< vertices, ascending

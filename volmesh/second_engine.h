@@ -25,8 +25,8 @@ struct SecondEngine {
 
 /// Tetrahedra beyond the hard limits of gates G14 and G15.
 struct HardMisses {
-  std::int64_t n_angles =
-      0;  ///< number of tetrahedra with a dihedral angle beyond the limits of G14, except those that the boundary provably forces (remaining.h)
+  /// Number of tetrahedra with a dihedral angle beyond the limits of G14, except those that the boundary provably forces (remaining.h).
+  std::int64_t n_angles = 0;
   std::int64_t n_growth = 0;  ///< number of faces between volumes whose ratio is beyond the limit of G15
   double smallest = 0.0;      ///< rad, smallest dihedral angle of all tetrahedra
   double largest = 0.0;       ///< rad, largest dihedral angle of all tetrahedra

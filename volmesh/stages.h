@@ -36,8 +36,8 @@ struct EnvelopeStage {
 struct FilledStage {
   std::optional<TriMesh> split_wall;  ///< nullopt: the wall is unchanged except for sliver splitting
   EnvelopeStage envelope;             ///< envelope of that wall, at the current layer heights
-  HybridMesh
-      layers;  ///< result of assemble_layers(): growth lines of the layer, then the outer boundary, without tetrahedra. Cells are columns, also on opened walls
+  /// Result of assemble_layers(): growth lines of the layer, then the outer boundary, without tetrahedra. Cells are columns, also on opened walls.
+  HybridMesh layers;
   TetraResult tets;  ///< tetrahedra that fill boundary_of(layers); they are not improved yet and have no splits
   std::vector<std::string> tetra_failures;
   std::array<std::int64_t, 5> curving_shares{};  ///< as in Extrusion::curving_shares

@@ -179,9 +179,8 @@ void slide_and_improve(HybridMesh& layers, FillBoundary& boundary, TetraResult& 
     if (moved.empty()) break;
     slid.insert(slid.end(), moved.begin(), moved.end());
     if (round + 1 < k_slide_rounds)
-      improve_around(
-          domain(), moved, tets, options, report,
-          context.part("slides", k_slides_begin + (1.0 - k_slides_begin) * round / k_slide_rounds, 1.0));  // the growth lines move in the last part of the step
+      improve_around(domain(), moved, tets, options, report,
+                     context.part("slides", k_slides_begin + (1.0 - k_slides_begin) * round / k_slide_rounds, 1.0));  // slides come last in this step
   }
   if (slider.n_moved() > 0) tell_remaining(domain(), tets, options, report, context);
   sort_unique(slid);

@@ -108,8 +108,8 @@ Point nearest_on(const Surface& surface, const Point& target, Uv& at) {
 /// Returns the gap between the surfaces of two triangles near these triangles; zero if the surfaces meet. Computed by alternating projection.
 double gap_between(const Model& model, const SurfaceMesh& mesh, TriangleId a, TriangleId b, double depth) {
   constexpr int k_turns = 40;
-  constexpr double k_apart =
-      0.01;  // relative to the depth of the crossing: smaller gaps count as zero, because the alternating projection has not converged after k_turns
+  // Relative to the depth of the crossing: smaller gaps count as zero, because the alternating projection has not converged after k_turns.
+  constexpr double k_apart = 0.01;
   const auto guess = [&](TriangleId t) -> std::optional<Uv> {
     for (const VertexId v : mesh.mesh.triangles[t])
       if (mesh.places[v].face == mesh.triangle_face[t]) return mesh.places[v].at;

@@ -37,8 +37,8 @@ struct ModelSizes {
   std::vector<SizeSite> sources;   ///< the same sizes as points in space, and those from the curvature of faces: locations where sizes may be small
   std::vector<SizeSite> in_space;  ///< user sources that apply to all faces
   PlaceSizes places;               ///< sizes that depend on the location; never more than max_edge
-  std::function<bool(FaceId, const Point&)>
-      is_covered;        ///< true where curvature is ignored because the rows of a band determine the size; empty function: nowhere
+  /// True where curvature is ignored because the rows of a band determine the size; empty function: nowhere.
+  std::function<bool(FaceId, const Point&)> is_covered;
   double growth = 0.2;   ///< change of length per distance
   double largest = 0.0;  ///< m, largest max_edge of all faces
 };

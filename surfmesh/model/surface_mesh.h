@@ -69,8 +69,8 @@ struct SpaceSizes {
   /// Returns the target length in m, for a point and the change of length per distance. The length grows with distance and is infinite where there is no
   /// target. Thread-safe.
   std::function<double(const Point&, double)> regions;
-  std::function<double(const Point&)>
-      function;                   ///< returns the target length in m, > 0; called only by the thread that called mesh_model; may be discontinuous
+  /// Returns the target length in m, > 0; called only by the thread that called mesh_model; may be discontinuous.
+  std::function<double(const Point&)> function;
   std::vector<SizeSite> samples;  ///< targets at single points; the smallest applies
 };
 

@@ -51,8 +51,8 @@ LineLook look_at_line(const Reference& r, const FeatureLine& line, std::size_t s
 }
 
 struct LineShape {
-  std::size_t n_sharp = 0, n_convex = 0,
-              n_corner = 0;               ///< numbers of sampled locations with a sharp turn, with a convex turn, and with the turn of a corner of a base
+  /// Numbers of sampled locations with a sharp turn, with a convex turn, and with the turn of a corner of a base.
+  std::size_t n_sharp = 0, n_convex = 0, n_corner = 0;
   double looks = 0.0;                     ///< mean x component of the outward direction
   std::array<double, 2> looks_of_side{};  ///< mean x component of each side's normal
   std::array<double, 2> width{};          ///< m, mean width of each side

@@ -13,8 +13,8 @@ namespace sterna::surfmesh {
 struct RemeshDemand {
   double most_needles = std::numeric_limits<double>::infinity();  ///< largest fraction of triangles with an angle below k_needle_angle
   double least_angle = 0.0;                                       ///< rad, smallest angle that the result may have
-  double largest_distance =
-      std::numeric_limits<double>::infinity();  ///< largest distance between the two surfaces in both directions, relative to the body length
+  /// Largest distance between the two surfaces in both directions, relative to the body length.
+  double largest_distance = std::numeric_limits<double>::infinity();
   double largest_distance_of_edge = std::numeric_limits<double>::infinity();  ///< the same distance relative to the edges of the new triangles there
   double more_turned = std::numeric_limits<double>::infinity();  ///< largest increase of the turned fraction of the area over that of the given triangles
 };

@@ -160,8 +160,8 @@ class Remesher {
   std::int32_t front_ = k_no_line - 1;  ///< placeholder for the line of the border's edges; locked
   std::vector<LineColumn> columns_;
   std::vector<RowEdge> row_edges_;
-  std::vector<std::pair<std::uint32_t, std::uint32_t>>
-      copies_;  ///< vertices of the opened mesh, each with the line vertex from which it was copied; sorted by the former
+  /// Vertices of the opened mesh, each with the line vertex from which it was copied; sorted by the former.
+  std::vector<std::pair<std::uint32_t, std::uint32_t>> copies_;
 };
 
 }  // namespace sterna::surfmesh

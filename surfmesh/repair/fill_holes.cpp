@@ -19,8 +19,8 @@ constexpr double k_same_plane = 1e-6;    ///< relative to L: loops are in one pl
 constexpr double k_full_half = 0.35;     ///< relative to the longest side of the box in the plane: smallest extent of the opening of a half model
 constexpr double k_origin_half = 0.1;    ///< the same limit if the plane passes through the origin
 constexpr double k_covered_share = 0.1;  ///< relative to the area of the opening: largest area of facets in the plane of the opening
-constexpr double k_in_plane_share =
-    0.6;  ///< smallest fraction of a loop's vertices in the plane: such a loop is partly the boundary of a half model, and partly another hole
+/// Smallest fraction of a loop's vertices in the plane: such a loop is partly the boundary of a half model, and partly another hole.
+constexpr double k_in_plane_share = 0.6;
 constexpr double k_sheet_share = 0.8;      ///< relative to the area of the part: a part with a larger hole does not bound a body
 constexpr int k_rings = 2;                 ///< number of rings of triangles around a hole that a curved filling continues
 constexpr std::size_t k_smooth_edges = 4;  ///< holes with fewer edges need no new points

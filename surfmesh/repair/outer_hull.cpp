@@ -19,12 +19,12 @@ namespace {
 constexpr int k_rays = 60;               ///< number of rays tried for each part
 constexpr double k_from_edge = 1e-6;     ///< barycentric coordinate: a ray that passes nearer to an edge is inconclusive
 constexpr double k_beside_share = 1e-7;  ///< relative to L: distance from a facet at which its sides are tested
-constexpr double k_most_leaking =
-    0.005;  ///< fraction of the area of facets that are solid by winding number but have the outside on both sides; with a larger fraction, the hull leaks
+/// Fraction of the area of facets that are solid by winding number but have the outside on both sides; with a larger fraction, the hull leaks.
+constexpr double k_most_leaking = 0.005;
 constexpr double k_least_kept = 0.01;          ///< fraction of the area that the hull must keep; with less, there is no body
 constexpr std::size_t k_within_samples = 300;  ///< number of facets of a component that are tested for lying inside another component
-constexpr double k_contact_share =
-    2e-3;  ///< relative to a component's length: if it is nearer than this to the surface of another component, it touches that component
+/// Relative to a component's length: if it is nearer than this to the surface of another component, it touches that component.
+constexpr double k_contact_share = 2e-3;
 constexpr double k_mostly_within = 0.9;  ///< fraction of the samples that must be within the other component
 constexpr double k_grazing = 1e-4;       ///< if the cosine of the angle to the normal is below this, the ray is inconclusive as well
 

@@ -7,8 +7,8 @@
 namespace sterna::surfmesh {
 namespace {
 
-constexpr double k_open_share =
-    0.9;  ///< relative to the box's diagonal: the open boundary of a flap is longer than this; that of a body with a hole is mostly shorter
+/// Relative to the box's diagonal: the open boundary of a flap is longer than this; that of a body with a hole is mostly shorter.
+constexpr double k_open_share = 0.9;
 constexpr double k_flat_share = 1e-6;  ///< relative to L: largest distance of the vertices of a flat baffle from its plane
 
 /// Returns the piece number of each facet. Pieces are connected across edges with two facets.

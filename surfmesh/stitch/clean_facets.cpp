@@ -154,8 +154,8 @@ bool drop_parts_without_thickness(WorkingSurface& surface, const EdgeTable& edge
   const ThinParts thin = find_thin_parts(surface.points, surface.facets, edges);
   if (thin.count == 0) return false;
   const auto first = static_cast<std::size_t>(std::ranges::find(thin.is_thin, 1) - thin.is_thin.begin());
-  report.n_duplicate_removed += std::ranges::count(
-      thin.is_thin, 1);  // such a part is a baffle whose two sides have different triangles; the file readers compare the number of remaining facets
+  // Such a part is a baffle whose two sides have different triangles; the file readers compare the number of remaining facets.
+  report.n_duplicate_removed += std::ranges::count(thin.is_thin, 1);
   report.messages.push_back("dropped " + count_of(thin.count, "closed part", "closed parts") + " without thickness (" +
                             count_of(std::ranges::count(thin.is_thin, 1), "facet", "facets") + "), the first at " +
                             format_point(surface.metres(surface.corners(first)[0])));

@@ -11,8 +11,8 @@
 namespace sterna::surfmesh {
 
 struct WrapSizes {
-  double edge = 0.0, gap = 0.0, tolerance = 0.0,
-         offset = 0.0;  ///< m; edge length, largest closed opening, largest distance from the input, and offset of the wrap
+  /// m; edge length, largest closed opening, largest distance from the input, and offset of the wrap.
+  double edge = 0.0, gap = 0.0, tolerance = 0.0, offset = 0.0;
   bool is_fluid_inside = false;
 };
 

@@ -47,8 +47,8 @@ constexpr double k_seconds_per_triangle = 1.5e-4;
 /// Relative to the tolerance: distances from the plane of a half model at which the cut is tried.
 constexpr std::array k_half_shifts{0.0, 0.2, 0.5, 1.0, 2.0};
 constexpr std::size_t k_seed_cells = 24;  ///< number of cells along each axis of the grid on which a location within a tunnel is searched
-constexpr double k_read_end = 0.05, k_close_end = 0.15, k_wrap_end = 0.5, k_fit_end = 0.85,
-                 k_measure_end = 0.95;  ///< fractions of the progress at the ends of the steps
+/// Fractions of the progress at the ends of the steps.
+constexpr double k_read_end = 0.05, k_close_end = 0.15, k_wrap_end = 0.5, k_fit_end = 0.85, k_measure_end = 0.95;
 
 std::int64_t expected_triangles(double area, double edge) { return std::llround(k_triangles_per_area * area / (edge * edge)); }
 

@@ -55,8 +55,8 @@ struct MeshFacts {
   std::vector<PeriodicNames> periodic;              ///< pairs of patches, including added patches, that must match node by node and face by face
   /// Rad: largest dihedral turn in the smooth part of the wall, if the surface mesher provides it. The default feature angle follows from it.
   double smooth_angle = k_automatic;
-  std::vector<PlacedPart>
-      parts;  ///< parts of the wall that were meshed in their own frame and moved; their envelopes are also made in that frame and moved (joint_envelope.h)
+  /// Parts of the wall that were meshed in their own frame and moved; their envelopes are also made in that frame and moved (joint_envelope.h).
+  std::vector<PlacedPart> parts;
 };
 
 /// The complete request. It must have no members of its own, because no option list would contain them.

@@ -15,8 +15,8 @@ namespace sterna::volmesh {
 /// A disc that walls with layers cross.
 struct CutDisc {
   std::size_t disc = 0;  ///< number of the disc
-  std::vector<std::array<VertexId, 2>>
-      outline;                 ///< edges of the boundary, oriented as in their upstream triangles; they form closed polygons in the plane of the disc
+  /// Edges of the boundary, oriented as in their upstream triangles; they form closed polygons in the plane of the disc.
+  std::vector<std::array<VertexId, 2>> outline;
   bool has_outer_rim = false;  ///< boundary circles of the disc that lie in the fluid (outer, inner)
   bool has_inner_rim = false;
 };

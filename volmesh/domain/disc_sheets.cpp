@@ -79,8 +79,8 @@ std::vector<SizeSite> sites_of(const TriMesh& walls) {
 
 double longest_edge(const ActuatorDisc& disc) {
   const double longest = is_automatic(disc.edge) ? k_disc_edge * disc.radius : disc.edge;
-  return disc.inner_radius > 0.0 ? std::min(longest, disc.radius - disc.inner_radius)
-                                 : longest;  // with longer edges the polygons of a narrow ring would cross each other
+  // With longer edges the polygons of a narrow ring would cross each other.
+  return disc.inner_radius > 0.0 ? std::min(longest, disc.radius - disc.inner_radius) : longest;
 }
 
 std::uint32_t edges_on_ring(double radius, double edge) {

@@ -71,8 +71,8 @@ struct Domain {
   std::vector<PeriodicEnds> periodic;
   std::vector<std::array<VertexId, 2>> partners;  ///< pairs of wall vertices where the wall ends on periodic sides; partners get the same growth
   Column<TriangleId, TriangleId> wall2surface;
-  Column<TriangleId, CornerWeights>
-      wall_weights;  ///< weights in wall2surface; empty if sliver splitting has not changed the wall, and also if discs have cut it
+  /// Weights in wall2surface; empty if sliver splitting has not changed the wall, and also if discs have cut it.
+  Column<TriangleId, CornerWeights> wall_weights;
   NeedleReport needles;
   OpenedRidges ridges;   ///< opened ridges of the wall
   DoubledSheets sheets;  ///< doubled sheets of the wall; a wall never has both these and opened ridges

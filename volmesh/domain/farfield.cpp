@@ -164,8 +164,8 @@ TriMesh farfield_sphere(const TriMesh& wall, const FarfieldOptions& options, con
   mesh.points.reserve(sphere.points().size());
   for (const Vec3& p : sphere.points()) mesh.points.push_back(center + radius * p);
   mesh.triangles.reserve(sphere.triangles().size());
-  for (const auto& t : sphere.triangles())
-    mesh.triangles.push_back({VertexId(t[0]), VertexId(t[2]), VertexId(t[1])});  // the order of corners is reversed, so normals point inwards
+  // The order of corners is reversed, so normals point inwards.
+  for (const auto& t : sphere.triangles()) mesh.triangles.push_back({VertexId(t[0]), VertexId(t[2]), VertexId(t[1])});
   mesh.triangle_patch.assign(mesh.triangles.size(), patch);
   return mesh;
 }

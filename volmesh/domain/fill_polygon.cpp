@@ -9,8 +9,8 @@
 namespace sterna::volmesh {
 namespace {
 
-constexpr double k_radius_share =
-    0.72;  ///< fraction of the target edge: triangles with a larger circumradius get a point (the circumradius of an equilateral triangle is 0.577)
+/// Fraction of the target edge: triangles with a larger circumradius get a point (the circumradius of an equilateral triangle is 0.577).
+constexpr double k_radius_share = 0.72;
 constexpr double k_border_share = 0.5;     ///< fraction of the target edge: smallest distance of new points from the border
 constexpr double k_distance_share = 0.55;  ///< fraction of the target edge: smallest distance of new points from other vertices
 constexpr std::size_t k_most_points = 20'000'000;

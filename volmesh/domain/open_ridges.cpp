@@ -24,10 +24,10 @@
 namespace sterna::volmesh {
 namespace {
 
-constexpr double k_raise =
-    0.01;  ///< fraction of the first height: distance of the starts of growth lines from their ridge base vertex, well within the 2 % of gate G11
-constexpr double k_least_raise =
-    1e-11;  ///< lower limit of that distance, as a fraction of the largest coordinate: normals of virtual triangles then have five digits
+/// Fraction of the first height: distance of the starts of growth lines from their ridge base vertex, well within the 2 % of gate G11.
+constexpr double k_raise = 0.01;
+/// Lower limit of that distance, as a fraction of the largest coordinate: normals of virtual triangles then have five digits.
+constexpr double k_least_raise = 1e-11;
 constexpr double k_longest_edge = 1e5;           ///< in first heights: on longer edges, control volumes of multi-normal fans would not be closed to rounding
 constexpr double k_bend_cosine = 0.5;            ///< 60 degrees: chains end at larger bends between edges
 constexpr double k_side_cosine = 0.5;            ///< 60 degrees: largest angle between the normal of a side and its facets
@@ -590,8 +590,8 @@ class RidgeOpener {
   Column<HalfedgeId, std::uint8_t> is_chain_;
   Column<VertexId, std::uint8_t> is_partner_;
   Column<VertexId, VertexId> partner_;  ///< partner of each vertex; valid for vertices with exactly one partner
-  Column<VertexId, PatchId>
-      patch_beyond_;  ///< patch of the outer boundary on which the wall ends at the vertex; invalid at other vertices, and if there are several such patches
+  /// Patch of the outer boundary on which the wall ends at the vertex; invalid at other vertices, and if there are several such patches.
+  Column<VertexId, PatchId> patch_beyond_;
   Column<VertexId, std::optional<Inner>> inner_;
   std::map<VertexId, RidgeCorner> corners_;
   std::vector<std::vector<VertexId>> chains_;

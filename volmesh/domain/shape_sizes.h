@@ -15,8 +15,8 @@ namespace sterna::volmesh {
 
 inline constexpr double k_default_radius = 50.0;  ///< body lengths
 inline constexpr double k_default_edge = 0.2;     ///< fraction of the radius
-inline constexpr double k_shape_margin =
-    0.02;  ///< body lengths: smallest distance between wall and shape. It is small because tunnels are narrow, but a layer must fit in
+/// Body lengths: smallest distance between wall and shape. It is small because tunnels are narrow, but a layer must fit in.
+inline constexpr double k_shape_margin = 0.02;
 inline constexpr double k_edge_growth = 0.3;  ///< growth of triangle edges per distance from a finer side
 inline constexpr double k_coincident = 1e-6;  ///< fraction of the shape's longest side: planes nearer to each other than this coincide
 

@@ -18,18 +18,18 @@
 namespace sterna::volmesh {
 namespace {
 
-constexpr double k_flip_gain =
-    0.95;  ///< a flip reduces the larger cotangent of its two triangles at least to this fraction, which prevents flipping back and forth
+/// A flip reduces the larger cotangent of its two triangles at least to this fraction, which prevents flipping back and forth.
+constexpr double k_flip_gain = 0.95;
 constexpr double k_flip_drift = 0.3;  ///< largest movement of the surface in a flip, as a fraction of flip_angle (rad) times the shorter diagonal; a square
                                       ///< folded by the angle moves by a quarter
-constexpr double k_hairline =
-    1e-6;  ///< fraction of the diagonal: normals of thinner triangles consist of rounding errors, so only the distance of the diagonals is tested
-constexpr double k_needle_reach =
-    32.0;  ///< largest number of pieces of a long edge; slivers that would need more pieces are left, because the triangles in between would be slivers too
+/// Fraction of the diagonal: normals of thinner triangles consist of rounding errors, so only the distance of the diagonals is tested.
+constexpr double k_hairline = 1e-6;
+/// Largest number of pieces of a long edge; slivers that would need more pieces are left, because the triangles in between would be slivers too.
+constexpr double k_needle_reach = 32.0;
 constexpr double k_least_piece = 0.45;  ///< shortest edge that bisection may make, as a fraction of the piece length at which the parts of the given triangle
                                         ///< are no slivers; below one half, so that a half may be shorter than such a piece once
-constexpr double k_crease_share =
-    2.0 / 3.0;  ///< fraction of a triangle's longest edge: creases at least this long are bisected first, because only creases need bisection
+/// Fraction of a triangle's longest edge: creases at least this long are bisected first, because only creases need bisection.
+constexpr double k_crease_share = 2.0 / 3.0;
 constexpr double k_path_ratio = 1.6;  ///< ratio of edges: if the neighbour's longest edge is longer than this, it is bisected first. The ratio is above 1 /
                                       ///< k_crease_share, so that paths end
 constexpr double k_spoilt = 1.01;     ///< limit for the cotangent sum of the sliver parts of a triangle, relative to its own cotangent

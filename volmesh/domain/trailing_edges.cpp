@@ -14,12 +14,11 @@ namespace {
 constexpr double k_sharp_edge_turn = 120.0 * k_degree;
 constexpr double k_looks_downstream = 0.342;  ///< cosine of 70 degrees: largest angle between the stream and the outward direction of the edge
 constexpr double k_base_turn_from = 40.0 * k_degree, k_base_turn_to = 140.0 * k_degree;
-constexpr double k_base_cosine = 0.7,
-                 k_side_of_base_cosine =
-                     0.5;             ///< cosine between normal and stream: above the first value a triangle is part of a base, below the second part of a side
-constexpr double k_upright = 0.3;     ///< largest |z| of the normals of upright sides
-constexpr double k_base_width = 0.1;  ///< largest width of a base, as a fraction of the chord
-constexpr double k_chain_bend = 0.5;  ///< cosine of 60 degrees: largest bend of a chain
+/// Cosine between normal and stream: above the first value a triangle is part of a base, below the second part of a side.
+constexpr double k_base_cosine = 0.7, k_side_of_base_cosine = 0.5;
+constexpr double k_upright = 0.3;       ///< largest |z| of the normals of upright sides
+constexpr double k_base_width = 0.1;    ///< largest width of a base, as a fraction of the chord
+constexpr double k_chain_bend = 0.5;    ///< cosine of 60 degrees: largest bend of a chain
 constexpr double k_median_reach = 0.5;  ///< chords: range to both sides over which medians are taken
 constexpr std::size_t k_least_edges = 3;
 

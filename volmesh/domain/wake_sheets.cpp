@@ -26,19 +26,19 @@ namespace {
 
 constexpr const char* k_wake_attempt = "making wake sheets";
 constexpr double k_sheet_raise = 0.01;  ///< fraction of the first height: offset of both sides from their base vertex
-constexpr double k_least_sheet_raise =
-    1e-11;                       ///< lower limit of the offset, as a fraction of the largest coordinate: normals between both sides then have five digits
-constexpr double k_blend = 1.5;  ///< number of chords over which the sheet turns into the free stream
+/// Lower limit of the offset, as a fraction of the largest coordinate: normals between both sides then have five digits.
+constexpr double k_least_sheet_raise = 1e-11;
+constexpr double k_blend = 1.5;         ///< number of chords over which the sheet turns into the free stream
 constexpr double k_least_start = 0.25;  ///< shortest first edge along the stream, as a fraction of the edge across, to avoid sliver triangles
-constexpr double k_short_end =
-    0.25;  ///< edges at the free ends of a chain get no sheet if they are shorter than this fraction of the edges upstream, and of the chain's median edge
+/// Edges at the free ends of a chain get no sheet if they are shorter than this fraction of the edges upstream, and of the chain's median edge.
+constexpr double k_short_end = 0.25;
 constexpr std::size_t k_least_sheet_edges = 3;  ///< smallest number of edges of a chain, with and without its short ends
 constexpr double k_longest = 2.5;               ///< largest ratio of an edge along the stream to the edge across, so that the top of the layer has no slivers
-constexpr double k_longest_fine = 3.0,
-                 k_longest_chord = 0.05;  ///< the same ratio where edges across are shorter than the second value, a fraction of the chord
-constexpr double k_spread = 0.3;          ///< number of chords over which streamwise lines become equidistant
-constexpr double k_spread_slope =
-    0.7;  ///< largest sideways shift for that, as a fraction of the distance along the line; with a larger shift cells would lean and cross
+/// The same ratio where edges across are shorter than the second value, a fraction of the chord.
+constexpr double k_longest_fine = 3.0, k_longest_chord = 0.05;
+constexpr double k_spread = 0.3;  ///< number of chords over which streamwise lines become equidistant
+/// Largest sideways shift for that, as a fraction of the distance along the line; with a larger shift cells would lean and cross.
+constexpr double k_spread_slope = 0.7;
 constexpr double k_clear_angle = 0.3;   ///< fraction of the distance from the trailing edge: nearer walls block the sheet, unless they are farther than an edge
 constexpr double k_start_share = 0.01;  ///< fraction of the first edge: nearer ray hits are on the wall at the start
 constexpr std::size_t k_most_stations = 1000;

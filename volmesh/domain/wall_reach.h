@@ -26,8 +26,8 @@ class WallReach {
   void mark(std::span<const VertexId> from, std::int32_t surface, const std::function<bool(VertexId)>& may_pass, Column<VertexId, std::uint64_t>& near) const;
 
  private:
-  Column<VertexId, std::vector<std::pair<VertexId, double>>>
-      neighbours_;                      ///< neighbours of each vertex with the length of the edge, m; inner edges are stored twice
+  /// Neighbours of each vertex with the length of the edge, m; inner edges are stored twice.
+  Column<VertexId, std::vector<std::pair<VertexId, double>>> neighbours_;
   Column<VertexId, double> mean_edge_;  ///< m
 };
 

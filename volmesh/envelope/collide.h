@@ -18,8 +18,8 @@ std::string_view to_string(BoundaryPart part);
 
 struct BoundaryTriangle {
   BoundaryPart part = BoundaryPart::top;
-  std::uint32_t index =
-      0;  ///< top and wall: number of the wall triangle; outer: number of the triangle of the outer boundary; side: 2 * boundary edge + 0 or 1
+  /// Top and wall: number of the wall triangle; outer: number of the triangle of the outer boundary; side: 2 * boundary edge + 0 or 1.
+  std::uint32_t index = 0;
   friend auto operator<=>(const BoundaryTriangle&, const BoundaryTriangle&) = default;
 };
 using BoundaryCrossing = std::array<BoundaryTriangle, 2>;

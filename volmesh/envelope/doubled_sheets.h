@@ -15,9 +15,9 @@ namespace sterna::volmesh {
 /// the growth lines of these vertices have no height.
 struct DoubledSheets {
   struct Foot {
-    std::array<VertexId, 2>
-        sides;    ///< left of the trailing edge: on the edge itself a vertex of the given wall; right of the trailing edge: always an added vertex
-    Point point;  ///< m
+    /// Left of the trailing edge: on the edge itself a vertex of the given wall; right of the trailing edge: always an added vertex.
+    std::array<VertexId, 2> sides;
+    Point point;                         ///< m
     std::array<VertexId, 2> start = {};  ///< vertices of both sides at which the streamwise line of this vertex leaves the trailing edge
     int row = 0;                         ///< number along the stream; 0: on the trailing edge
     double height_growth = 1.0;          ///< target ratio of the first heights of consecutive rows

@@ -17,9 +17,9 @@ namespace {
 
 /// Margin above the largest smooth deviation. Single precision, and scripts that move the wall, change angles slightly.
 constexpr double k_above_smooth = 1.0 * k_degree;
-constexpr std::size_t k_lowest = 20,
-                      k_highest = 60;  ///< degrees: smaller deviations occur on any coarse curved surface, and larger ones are features on all surfaces
-constexpr std::size_t k_window = 2;    ///< number of bins on either side that are counted together with a bin, so that single edges do not end a gap
+/// Degrees: smaller deviations occur on any coarse curved surface, and larger ones are features on all surfaces.
+constexpr std::size_t k_lowest = 20, k_highest = 60;
+constexpr std::size_t k_window = 2;  ///< number of bins on either side that are counted together with a bin, so that single edges do not end a gap
 /// A window with at most this fraction of all edges counts as empty, because every surface has some badly shaped triangles.
 constexpr double k_quiet_share = 1e-3;
 

@@ -11,8 +11,8 @@
 namespace sterna::volmesh {
 namespace {
 
-constexpr double k_remaining_edges =
-    k_kept_edges;  ///< number of edges (the longer local envelope edge) for which room remains between two layers, for tetrahedra
+/// Number of edges (the longer local envelope edge) for which room remains between two layers, for tetrahedra.
+constexpr double k_remaining_edges = k_kept_edges;
 constexpr double k_remaining_share = k_kept_share;  ///< fraction of a gap that remains if the gap is too narrow for k_remaining_edges
 constexpr double k_gap_opposing_cosine = 0.7;  ///< a wall is opposing if it faces the growth line within 45 degrees; all other walls are left to the exact test
 constexpr int k_level_sweeps = 3;

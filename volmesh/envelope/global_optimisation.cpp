@@ -79,8 +79,8 @@ void optimise_globally(const LayerBase& base, const EnvelopeOptions& options, Co
         return;
       }
       const Vec3 g = (1.0 - share) * start.height[v] * start.direction[v] + share * best.height[v] * best.direction[v];
-      proposal.height[v] =
-          (1.0 - share) * start.height[v] + share * best.height[v];  // not the length of g, because the chord between two directions is shorter
+      // Not the length of g, because the chord between two directions is shorter.
+      proposal.height[v] = (1.0 - share) * start.height[v] + share * best.height[v];
       proposal.direction[v] = normalized(g);
     });
     apply_where_clear(base, collider, envelope, proposal, context);

@@ -47,8 +47,8 @@ Vec3 pull_into_cone(const LayerBase& base, VertexId v, const Vec3& wanted, doubl
 
 namespace {
 
-constexpr double k_taper_cosine =
-    0.2;  ///< growth lines of a multi-normal fan that is not open yet have at least this cosine with the face normals, if such a direction exists
+/// Growth lines of a multi-normal fan that is not open yet have at least this cosine with the face normals, if such a direction exists.
+constexpr double k_taper_cosine = 0.2;
 
 void taper_fans(const LayerBase& base, Envelope& envelope) {
   if (base.ridges == nullptr) return;

@@ -16,8 +16,8 @@ namespace sterna::volmesh {
 namespace {
 
 constexpr int k_sweeps = 4;
-constexpr double k_facing_cosine =
-    0.5;  ///< cosine between growth direction (or facet normal) and the direction to the other side, which must be within 60 degrees
+/// Cosine between growth direction (or facet normal) and the direction to the other side, which must be within 60 degrees.
+constexpr double k_facing_cosine = 0.5;
 constexpr double k_least_share = 0.6;   ///< fraction of a height that remains at least after one sweep
 constexpr double k_good_enough = 0.98;  ///< fraction of the distance that is sufficient, so that no sweep is made because of rounding
 constexpr double k_outer_share = 0.5;   ///< fraction of the distance that is kept from the outer boundary

@@ -15,8 +15,8 @@ constexpr int k_inside_bisections = 12;     ///< number of halvings; the result 
 constexpr int k_chord_steps = 4;            ///< number of steps; each reduces the error of the chord's length by the square of the angle of rotation
 constexpr double k_seat_tolerance = 1e-12;  ///< fraction of the body length: rounding error of a point on the surface
 constexpr int k_max_seat_rounds = 24;
-constexpr double k_seat_shrink =
-    0.7;  ///< factor on the height if the point on the surface is not possible; after 24 rounds, at 2e-4 of the height, the vertex collapses
+/// Factor on the height if the point on the surface is not possible; after 24 rounds, at 2e-4 of the height, the vertex collapses.
+constexpr double k_seat_shrink = 0.7;
 
 const ConstraintSurface& surface_of(const LayerBase& base, VertexId v) { return *base.surfaces[static_cast<std::size_t>(base.constraint[v].on[0])]; }
 

@@ -9,8 +9,8 @@
 namespace sterna::volmesh {
 namespace {
 
-constexpr int k_max_descent_halvings =
-    6;  ///< largest number of halvings of a step that raises the objective; after that the vertex waits for changes of its neighbours
+/// Largest number of halvings of a step that raises the objective; after that the vertex waits for changes of its neighbours.
+constexpr int k_max_descent_halvings = 6;
 constexpr std::size_t k_max_incident = 64;   ///< a vertex with more triangles than this does not move
 constexpr double k_max_step = 0.5;           ///< largest step, in units of h_u
 constexpr double k_sufficient = 1e-4;        ///< Armijo condition: required fraction of the predicted decrease

@@ -16,8 +16,8 @@ inline constexpr double k_wall_cosine_onset = 0.2;  ///< for the cosine between 
 inline constexpr double k_area_onset = 0.2;         ///< for the fraction of the wall's area that the envelope triangle keeps in projection
 inline constexpr double k_top_cosine_onset = 0.25;  ///< for the cosine between growth edge and envelope normal
 inline constexpr double k_middle_onset = 0.3;       ///< for b_1 + sqrt(b_0 b_2) of the exact wedge test
-inline constexpr double k_corner_onset =
-    1.0;  ///< for the ratio of the sine of an envelope corner to its smallest allowed sine, minus one; a straight prism on a sliver triangle has this value
+/// For the ratio of the sine of an envelope corner to its smallest allowed sine, minus one; a straight prism on a sliver triangle has this value.
+inline constexpr double k_corner_onset = 1.0;
 /// Smallest values of an element's quantities. Barriers begin above them.
 struct ElementMargins {
   double area = 0.01;        ///< fraction of the wall's area

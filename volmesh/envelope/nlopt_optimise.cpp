@@ -202,8 +202,8 @@ Envelope nlopt_optimise(const LayerBase& base, const Envelope& start, const Colu
     return start;
   }
   std::vector<double> z = problem.unknowns(start);
-  for (std::size_t i = 0; i < z.size(); ++i)
-    z[i] = std::clamp(z[i], problem.bounds().lower[i], problem.bounds().upper[i]);  // the points are outside of the bounds by rounding errors only
+  // The points are outside of the bounds by rounding errors only.
+  for (std::size_t i = 0; i < z.size(); ++i) z[i] = std::clamp(z[i], problem.bounds().lower[i], problem.bounds().upper[i]);
   Envelope from = start;
   if (problem.constraint(z, {}, context).total() > k_walk_end) {
     report.is_feasible = walk_to_feasibility(problem, settings, z, report, context);

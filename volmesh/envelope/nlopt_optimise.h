@@ -10,10 +10,10 @@ enum class NloptMethod { mma, ccsaq };
 
 struct NloptSettings {
   NloptMethod method = NloptMethod::mma;
-  int max_evaluations =
-      300;  ///< largest number of evaluations of the objective; evaluations during the walk to a feasible point are counted separately, with the same limit
-  double max_seconds =
-      k_automatic;          ///< limit for the elapsed time. Results are then not reproducible, so it is off by default, and the report states if it was reached
+  /// Largest number of evaluations of the objective; evaluations during the walk to a feasible point are counted separately, with the same limit.
+  int max_evaluations = 300;
+  /// Limit for the elapsed time. Results are then not reproducible, so it is off by default, and the report states if it was reached.
+  double max_seconds = k_automatic;
   double tolerance = 1e-6;  ///< relative change of the variables (sum of absolute values) at which the run ends
   double g1_min = 0.01;     ///< lower limit in eq. (6); is_macro_valid requires the same value
   /// NLopt gets (5) in the form "sum of violated g <= slack times the number of elements". With a slack of 0, value and gradient vanish inside the feasible

@@ -28,10 +28,10 @@ struct OpenedRidges {
   Column<VertexId, VertexId> foot;  ///< for each vertex the first vertex of its fan, or the vertex itself if it belongs to no fan; empty: no ridge is opened
   std::vector<std::array<VertexId, 4>> quads;  ///< virtual quadrilaterals, counter-clockwise as seen from the fluid; vertices 0 and 3 have one ridge base
                                                ///< vertex, 1 and 2 the other; the triangles are 012 and 023
-  std::vector<std::array<VertexId, 3>>
-      ends;  ///< virtual triangles from a fan to the end of its ridge: first the end vertex, then two vertices with one ridge base vertex
-  std::vector<std::array<VertexId, 3>>
-      corners;  ///< virtual triangles between growth lines of one ridge base vertex where ridges meet, counter-clockwise as seen from the fluid
+  /// Virtual triangles from a fan to the end of its ridge: first the end vertex, then two vertices with one ridge base vertex.
+  std::vector<std::array<VertexId, 3>> ends;
+  /// Virtual triangles between growth lines of one ridge base vertex where ridges meet, counter-clockwise as seen from the fluid.
+  std::vector<std::array<VertexId, 3>> corners;
   std::vector<VertexId> end_vertices;  ///< end vertices in `ends`, ascending; their growth lines have one layer less, next to the wall
   bool is_empty() const { return feet.empty(); }
 };

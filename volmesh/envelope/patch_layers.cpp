@@ -23,8 +23,8 @@ namespace sterna::volmesh {
 namespace {
 
 constexpr int k_length_digits = 4;  ///< number of digits of lengths in the log
-constexpr double k_blend_heights =
-    3.0;  ///< smallest ratio of an automatic blend to the height of the taller layer; its top then rises by a third of the difference at the border
+/// Smallest ratio of an automatic blend to the height of the taller layer; its top then rises by a third of the difference at the border.
+constexpr double k_blend_heights = 3.0;
 constexpr double k_blend_edges = 8.0;  ///< smallest ratio of an automatic blend to the mean edge; neighbouring growth lines then differ by at most a ninth of
                                        ///< the whole step (the largest slope is 0.86)
 

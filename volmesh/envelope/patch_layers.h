@@ -25,8 +25,8 @@ Patch with_kind(Patch patch, std::span<const PatchRule> rules);
 struct PatchLayers {
   int layers = 0;                     ///< 0: the patch carries no layers
   double first_height = k_automatic;  ///< m; set if there are layers
-  bool has_own_layers = false, has_own_first_height = false, has_own_growth = false,
-       has_own_height = false;  ///< true if a rule gives the number of layers, the first height, the growth, the total height
+  /// True if a rule gives the number of layers, the first height, the growth, the total height.
+  bool has_own_layers = false, has_own_first_height = false, has_own_growth = false, has_own_height = false;
   double max_growth = 0.0;
   double total_height = k_automatic;   ///< m; automatic: from the wall's edges
   double max_thickness = k_automatic;  ///< m; automatic: a fraction of the body length

@@ -46,8 +46,8 @@ std::vector<VertexId> leaning_lines(const LayerBase& base, const EnvelopeScale& 
           const TriangleVertices& v = base.wall.triangles[TriangleId(i)];
           const Vec3& normal = base.unit_normal[TriangleId(i)];
           const auto leans = [&](VertexId w, double cosine) { return !envelope.is_collapsed(w) && dot(envelope.direction[w], normal) < cosine; };
-          if (std::ranges::none_of(v, [&](VertexId w) { return leans(w, k_lean_cosine); }))
-            continue;  // if no growth line is outside the cone, their mean is not outside either
+          // If no growth line is outside the cone, their mean is not outside either.
+          if (std::ranges::none_of(v, [&](VertexId w) { return leans(w, k_lean_cosine); })) continue;
           const auto step = [&](VertexId w) { return straight_step(base, scale, envelope, w); };
           if (column_cosine({step(v[0]), step(v[1]), step(v[2])}, normal) >= k_lean_cosine) continue;
           for (const VertexId w : v)

@@ -7,8 +7,8 @@ namespace sterna::volmesh {
 inline constexpr double k_gas_constant = 287.05287;   ///< J/(kg K) of air: 8314.32 / 28.9644, both as the standard defines them
 inline constexpr double k_heat_ratio = 1.4;           ///< ratio of specific heats of air
 inline constexpr double k_lowest_altitude = -5000.0;  ///< m, geopotential altitude: start of the ICAO and 1976 tables
-inline constexpr double k_highest_altitude =
-    84852.0;  ///< m, geopotential altitude (86 km geometric): above it, the composition of the air changes and the formulas are not valid
+/// m, geopotential altitude (86 km geometric): above it, the composition of the air changes and the formulas are not valid.
+inline constexpr double k_highest_altitude = 84852.0;
 
 struct AirState {
   double temperature = 0.0;  ///< K

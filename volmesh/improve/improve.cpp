@@ -69,8 +69,8 @@ void improve_around(const TetraBoundary& boundary, std::span<const std::uint32_t
   for (std::size_t t = 0; t < tets.tetrahedra.size(); ++t)
     if (std::ranges::any_of(tets.tetrahedra[t], [&](std::uint32_t v) { return v < is_around.size() && is_around[v]; }))
       some.push_back(static_cast<std::uint32_t>(t));
-  Improver improver(boundary, tets, wished_limits(options),
-                    context);  // there is a single pass, because a pass for angles alone would undo the changes of volumes
+  // There is a single pass, because a pass for angles alone would undo the changes of volumes.
+  Improver improver(boundary, tets, wished_limits(options), context);
   improver.work_on_bad_of(some);
   report.rounds += improver.run(options.improve_rounds);
   improver.finish(tets);

@@ -23,9 +23,9 @@ struct ImproveReport {
   double max_angle_after = 0.0;
   int rounds = 0;
   std::int64_t n_at_boundary = 0;  ///< number of tetrahedra with a vertex on the boundary
-  std::int64_t n_forced =
-      0;                    ///< number of bad tetrahedra that the boundary provably forces (remaining.h); other bad tetrahedra are failures of the improvement
-  std::int64_t n_slid = 0;  ///< number of growth lines whose height was changed afterwards
+  /// Number of bad tetrahedra that the boundary provably forces (remaining.h); other bad tetrahedra are failures of the improvement.
+  std::int64_t n_forced = 0;
+  std::int64_t n_slid = 0;            ///< number of growth lines whose height was changed afterwards
   std::vector<ErrorPlace> remaining;  ///< the first 10 000 bad tetrahedra, worst first: centre, angles, and sharpest angle of the boundary at the tetrahedron
 };
 

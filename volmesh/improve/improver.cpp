@@ -12,8 +12,8 @@
 namespace sterna::volmesh {
 namespace {
 
-constexpr std::size_t k_group =
-    300;  ///< number of bad tetrahedra per group: larger groups have fewer bad tetrahedra between two groups, smaller groups occupy more cores
+/// Number of bad tetrahedra per group: larger groups have fewer bad tetrahedra between two groups, smaller groups occupy more cores.
+constexpr std::size_t k_group = 300;
 constexpr std::uint32_t k_ring_shift = 28;
 /// Returns the number of vertex rings around the bad tetrahedra that a group claims. Every third pass adds a ring, for tetrahedra that could not be improved
 /// within one ring.

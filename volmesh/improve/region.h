@@ -28,8 +28,8 @@ int max_failures(const std::array<Vec3, 4>& corners, bool is_at_boundary);
 /// A boundary triangle with a layer below it.
 struct LayerFace {
   std::array<std::uint32_t, 3> corners;  ///< vertices, ascending
-  double weight =
-      0.0;  ///< this value times six times the volume of the tetrahedron on the face is the ratio of its volume to the volume that fits the last prism
+  /// This value times six times the volume of the tetrahedron on the face is the ratio of its volume to the volume that fits the last prism.
+  double weight = 0.0;
   friend bool operator<(const LayerFace& a, const LayerFace& b) { return a.corners < b.corners; }
 };
 /// Returns the quality of a tetrahedron on top of the layer relative to the last prisms below it; nothing for other tetrahedra. \p faces sorted. \p n_boundary

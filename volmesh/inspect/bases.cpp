@@ -11,8 +11,8 @@
 namespace sterna::volmesh {
 namespace {
 
-constexpr double k_taper =
-    0.05;  ///< sine of the angle between the two edges of a base: with a larger angle the facet tapers to a point, which no thickness can correct
+/// Sine of the angle between the two edges of a base: with a larger angle the facet tapers to a point, which no thickness can correct.
+constexpr double k_taper = 0.05;
 constexpr double k_enough = 0.1;    ///< recommended ratio of thickness to height, with which hardly any face leans (docs/measurements/inspect.md)
 constexpr int k_most_steps = 1000;  ///< largest number of crossed triangles; a wider strip is a surface, not a base
 

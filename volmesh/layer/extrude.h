@@ -19,8 +19,8 @@ struct Extrusion {
   LayerBlock layers;                ///< growth line k stands on wall vertex k; base triangles are the wall triangles
   std::vector<Point> points;        ///< nodes of all growth lines, one line after the other, each from the wall up
   std::int64_t n_straightened = 0;  ///< number of growth lines whose c_t was reduced
-  std::array<std::int64_t, 5>
-      curving_shares{};  ///< numbers of growth lines whose c_t was reduced, by the fraction of the target c_t: 0, up to 1/4, 1/2, 3/4, below 1
+  /// Numbers of growth lines whose c_t was reduced, by the fraction of the target c_t: 0, up to 1/4, 1/2, 3/4, below 1.
+  std::array<std::int64_t, 5> curving_shares{};
 };
 
 /// Creates and updates the layer of one wall. Nodes and curving are kept between calls. Later calls update only the growth lines whose envelope has changed,

@@ -16,8 +16,8 @@ namespace sterna::volmesh {
 namespace {
 
 constexpr int k_report_digits = 4;  ///< number of digits of lengths in texts
-constexpr double k_suspicious_share =
-    0.5;  ///< fraction of the area; if a larger fraction is compressed, a mistake in the settings is more probable than a difficult shape
+/// Fraction of the area; if a larger fraction is compressed, a mistake in the settings is more probable than a difficult shape.
+constexpr double k_suspicious_share = 0.5;
 
 /// Reasons for less than the full height: those of HeightLimit, and as the last one growth lines that are long enough but inclined.
 constexpr std::size_t k_lean = k_height_limits;

@@ -57,12 +57,12 @@ struct LayerReport {
   double truncated_area = 0.0;                            ///< fraction of the wall area with fewer layers than requested
   std::vector<PatchLayerReport> patches;                  ///< patches in the order of the wall
   std::vector<ErrorPlace> collapsed;                      ///< each collapsed vertex: location, patch and reason
-  std::vector<ErrorPlace>
-      compressed;              ///< the lowest vertices below n h0 that are not collapsed (at most k_listed_compressed): location, patch, height and reason
+  /// The lowest vertices below n h0 that are not collapsed (at most k_listed_compressed): location, patch, height and reason.
+  std::vector<ErrorPlace> compressed;
   FirstNodeReport first_node;  ///< distances of the first nodes from the wall
   InterfaceReport interface;
-  std::array<std::int64_t, 5>
-      reduced_curving{};              ///< numbers of growth lines with less than wall_perpendicularity, by the fraction of it: 0, up to 1/4, 1/2, 3/4, below 1
+  /// Numbers of growth lines with less than wall_perpendicularity, by the fraction of it: 0, up to 1/4, 1/2, 3/4, below 1.
+  std::array<std::int64_t, 5> reduced_curving{};
   std::vector<std::string> warnings;  ///< probable mistakes in the settings, one sentence each; also written to the log
 };
 

@@ -67,8 +67,8 @@ class RenumberedLines {
     std::vector<BoundaryQuad> quads;
     for (BoundaryQuad quad : mesh.boundary_quads) {
       for (NodeId& n : quad.nodes) n = moved(n, node);
-      if (quad.nodes[0] == quad.nodes[1])
-        faces.push_back({{quad.nodes[0], quad.nodes[2], quad.nodes[3]}, quad.patch});  // the two growth lines have the same base vertex
+      // The two growth lines have the same base vertex.
+      if (quad.nodes[0] == quad.nodes[1]) faces.push_back({{quad.nodes[0], quad.nodes[2], quad.nodes[3]}, quad.patch});
       else quads.push_back(quad);
     }
     mesh.boundary_triangles = std::move(faces);

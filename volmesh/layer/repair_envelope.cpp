@@ -10,8 +10,8 @@
 namespace sterna::volmesh {
 namespace {
 
-constexpr double k_lowered =
-    0.7;  ///< factor on the mean height around the defect, at the defect itself; 0.9 would hardly change the boundary, and 0.5 would cost too much layer height
+/// Factor on the mean height around the defect, at the defect itself; 0.9 would hardly change the boundary, and 0.5 would cost too much layer height.
+constexpr double k_lowered = 0.7;
 constexpr std::uint8_t k_rings = 4;  ///< number of rings over which the reduction decreases to zero, so that no step causes another defect
 constexpr std::uint8_t k_far = 255;
 

@@ -151,8 +151,8 @@ LineSlider::LineSlider(HybridMesh& layers, FillBoundary& boundary, const Improve
 void LineSlider::lock_lines() {
   const LayerBlock& layers = mesh_.layers;
   is_locked_.assign(layers.n_lines(), 0);
-  for (std::size_t line = 0; line < layers.n_lines(); ++line)
-    is_locked_[line] = layers.n_steps(line) < 3;  // a growth line is locked if it has no node to redistribute
+  // A growth line is locked if it has no node to redistribute.
+  for (std::size_t line = 0; line < layers.n_lines(); ++line) is_locked_[line] = layers.n_steps(line) < 3;
   for (std::size_t column = 0; column < layers.n_columns(); ++column)
     if (layers.n_collapsed(column) > 0)
       for (const Line line : layers.base[column]) is_locked_[line] = 1;
@@ -333,8 +333,8 @@ std::vector<LineSlider::Fault> LineSlider::find_faults(const TetraResult& tets, 
           if (tet_on[column] == k_no_tet) continue;
           const double excess = interface_of(tets, static_cast<std::uint32_t>(column), tet_on[column]).worst() / k_reserve;
           if (excess <= 1.0) continue;
-          for (const std::uint32_t v : tets.tetrahedra[tet_on[column]])
-            add(excess, v, found);  // the three vertices of the column, and possibly one across a fold
+          // The three vertices of the column, and possibly one across a fold.
+          for (const std::uint32_t v : tets.tetrahedra[tet_on[column]]) add(excess, v, found);
         }
       },
       k_search_chunk));

@@ -20,8 +20,8 @@ struct SplitLayer {
   Extrusion extrusion;
   FillBoundary boundary;
   EnvelopeCertificate certificate;  ///< passed certificate of the envelope; the layer's cells are not counted yet
-  bool is_filled =
-      false;  ///< true: the tetrahedra are still valid with the present tops; false: heights were lowered because of invalid cells in split columns
+  /// True: the tetrahedra are still valid with the present tops; false: heights were lowered because of invalid cells in split columns.
+  bool is_filled = false;
 };
 
 /// Splits wall, envelope and outer boundary according to tets.splits. Each new wall vertex is moved to the true surface, unless `true_surface` is empty. Its

@@ -15,8 +15,8 @@ namespace {
 /// unless the last cell is already taller.
 constexpr double k_wanted_last = 0.5, k_least_step = 0.12, k_most_last = 1.5;
 constexpr double k_rounding = 1.0 + 1e-9;  ///< tolerance for heights that are compared with n h0, and for growth
-constexpr double k_used_growth =
-    0.98;  ///< fraction of max_growth that is used; the remainder is for curved growth lines, whose cells grow by more than their heights
+/// Fraction of max_growth that is used; the remainder is for curved growth lines, whose cells grow by more than their heights.
+constexpr double k_used_growth = 0.98;
 
 /// Possible numbers of layers of a growth line.
 struct LineChoice {

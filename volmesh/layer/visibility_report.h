@@ -15,8 +15,8 @@ inline constexpr std::array<double, 4> k_visibility_limits_deg = {30.0, 45.0, 60
 struct VisibilityReport {
   Column<VertexId, double> angle;
   double max_angle = 0.0;
-  std::array<double, 4>
-      share_above{};  ///< fraction of the given vertices above each of k_visibility_limits_deg; for multi-normal fans the worst growth line is used
+  /// Fraction of the given vertices above each of k_visibility_limits_deg; for multi-normal fans the worst growth line is used.
+  std::array<double, 4> share_above{};
   std::vector<ErrorPlace> hardest;  ///< the ten worst vertices above the first of these limits
 };
 

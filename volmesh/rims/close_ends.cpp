@@ -342,11 +342,11 @@ class Closer {
   const RunContext& context_;
   Topology topology_;                           ///< topology of domain_.outer
   Column<VertexId, VertexId> new_of_, top_of_;  ///< vertices of the result: by vertex of domain_.outer without a growth line, and by growth line
-  std::map<std::uint64_t, Edge>
-      lines_of_;  ///< growth lines of an edge between ridge base vertices at which there is a multi-normal fan, in the direction of the adjacent patch
+  /// Growth lines of an edge between ridge base vertices at which there is a multi-normal fan, in the direction of the adjacent patch.
+  std::map<std::uint64_t, Edge> lines_of_;
   std::vector<std::pair<Edge, PatchId>> fan_edges_;  ///< edges between growth lines with a common ridge base vertex, in the direction of the adjacent patch
-  std::map<std::uint64_t, std::vector<Edge>>
-      replaced_;  ///< edges that replace a chain, stored at the first edge of the chain; other edges of the chain have empty lists
+  /// Edges that replace a chain, stored at the first edge of the chain; other edges of the chain have empty lists.
+  std::map<std::uint64_t, std::vector<Edge>> replaced_;
   std::map<const EndChain*, std::vector<VertexId>> polygons_;  ///< polygon that replaces each chain
   struct First {
     std::unique_ptr<Region> made;

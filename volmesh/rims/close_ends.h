@@ -12,8 +12,8 @@ namespace sterna::volmesh {
 /// Outer boundary of the volume for the tetrahedra.
 struct ClosedOuter {
   TriMesh mesh;  ///< mesh with the patches of Domain::outer
-  Column<VertexId, VertexId>
-      line;  ///< for each vertex the wall vertex whose top it is (of a collapsed wall vertex: the wall vertex itself); invalid for other vertices
+  /// For each vertex the wall vertex whose top it is (of a collapsed wall vertex: the wall vertex itself); invalid for other vertices.
+  Column<VertexId, VertexId> line;
 };
 
 /// Returns an outer boundary that has no vertices in common with a wall.

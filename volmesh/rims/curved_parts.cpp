@@ -104,8 +104,8 @@ class CurvedEndSplitter {
   TriangleTree tree_;
   std::size_t n_;
   std::vector<std::uint32_t> twin_;  ///< twin of each half-edge 3 t + c
-  std::vector<std::uint32_t>
-      point_;  ///< for each vertex the point of the region at its location, or later its number among the new points; k_no_part: not needed yet
+  /// For each vertex the point of the region at its location, or later its number among the new points; k_no_part: not needed yet.
+  std::vector<std::uint32_t> point_;
   std::vector<std::uint8_t> is_replaced_;  ///< border half-edges of the original that are no edges of the region
   std::vector<EndEdge> footprints_;        ///< edges of the region that are not edges of the original
   std::vector<std::uint32_t> footprint_piece_;

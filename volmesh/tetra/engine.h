@@ -38,8 +38,8 @@ using SplitMode = wire::Splits;
 struct EngineOutcome {
   std::optional<TetraResult> result;
   EngineFailure failure;
-  double stuck_share =
-      0.0;  ///< fraction of tetrahedra that are flat and lie over many boundary triangles, because refinement could not separate these triangles
+  /// Fraction of tetrahedra that are flat and lie over many boundary triangles, because refinement could not separate these triangles.
+  double stuck_share = 0.0;
 };
 
 /// Input of an engine. `parts` belong to the boundary, or to the joined boundary if there is one. Sizes may be missing.

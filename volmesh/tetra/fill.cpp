@@ -127,8 +127,8 @@ EngineOutcome run(const LadderRung& rung, const TetraBoundary& boundary, const J
   context.info("first pass: " + std::to_string(first.result->tetrahedra.size()) + " tetrahedra");
   const SizeSource samples = nodal_sizes(boundary, *first.result, context);
   if (samples.points.empty())
-    return run_engine(rung.engine, {boundary, parts, sizes, rung.splits, joined}, options,
-                      context);  // there are no nodes in the volume from which sizes could be taken
+    // There are no nodes in the volume from which sizes could be taken.
+    return run_engine(rung.engine, {boundary, parts, sizes, rung.splits, joined}, options, context);
   const SizeField field = sizes ? sizes->with(samples, boundary, context) : build_size_field(boundary, std::span(&samples, 1), {}, context);
   SizeSupply second_sizes(field);
   EngineOutcome second = run_engine(rung.engine, {boundary, parts, &second_sizes, rung.splits, joined}, options, context);

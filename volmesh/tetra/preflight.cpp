@@ -170,8 +170,8 @@ class Inspector {
     if (crosses(a, b)) return findings.add(Trouble::crossing, a, b, 0.0);
     const Vec3 &n = shapes_[a].normal, &m = shapes_[b].normal;
     if (norm2(n) == 0.0 || norm2(m) == 0.0) return;
-    const double angle =
-        std::atan2(norm(cross(n, m)), -dot(n, m));  // for consistently oriented triangles the angle is pi if they are flat, and 0 if they lie back to back
+    // For consistently oriented triangles the angle is pi if they are flat, and 0 if they lie back to back.
+    const double angle = std::atan2(norm(cross(n, m)), -dot(n, m));
     if (angle < limits_.fold_angle) findings.add(Trouble::folded, a, b, angle);
   }
 

@@ -41,8 +41,8 @@ struct TetraBoundary {
 /// tetrahedron; every tetrahedron is positive (exact test); there is no other outer face. With splits, all this holds for the split boundary, whose points are
 /// the old points and those of the splits, and whose triangles are those of the splits.
 struct TetraResult {
-  std::vector<Vec3>
-      new_points;  ///< Steiner points in the volume; the node number of a point is the number of boundary points (including those of splits) + its index
+  /// Steiner points in the volume; the node number of a point is the number of boundary points (including those of splits) + its index.
+  std::vector<Vec3> new_points;
   std::vector<std::array<std::uint32_t, 4>> tetrahedra;  ///< corners in CGNS order, with positive volume
   BoundarySplits splits;                                 ///< splits of the boundary; empty: the boundary is unchanged
   std::string engine;                                    ///< engine that made the tetrahedra: "tetgen", "hxt" or "sterna"
