@@ -11,16 +11,17 @@
 namespace sterna::volmesh {
 namespace {
 
-// Peak memory of complete runs (docs/measurements/performance.md): an airliner's wing and body, the CRM, the Cessna, the DLR-F6 with 184 k and 613 k triangles.
+// Peak memory of complete runs (docs/measurements/performance.md). The runs are the wing and body of an airliner, the CRM, the Cessna, and the DLR-F6 with 184
+// k and 613 k triangles.
 constexpr double k_bytes_alone = 60e6, k_bytes_of_prism = 45.0, k_bytes_of_tetrahedron = 215.0;
-/// Smallest ratio observed on walls of well-shaped triangles with default size growth.
+/// Smallest observed ratio of tetrahedra to triangles, on walls of well-shaped triangles with default size growth.
 constexpr double k_least_tetrahedra_of_triangle = 5.0;
-// Seconds of the same runs on two threads; they finish 1.8 times as fast as on one.
+// Seconds of the same runs on two threads, which are 1.8 times as fast as one thread.
 constexpr double k_seconds_of_triangle = 6e-5, k_seconds_of_tetrahedron = 0.8e-6, k_threads_power = 0.85;
 constexpr double k_long = 600.0;
-/// For a regular tetrahedron, volume over cubed edge is 6^-1 2^-1/2; tetrahedra in growing size fields are somewhat smaller.
+/// Ratio of volume to cubed edge. For a regular tetrahedron it is 6^-1 2^-1/2; tetrahedra in growing size fields are somewhat smaller.
 constexpr double k_volume_over_cube = 0.118 * 0.9;
-/// The integral includes leaves inside bodies, where there are no tetrahedra.
+/// The integral includes leaves inside bodies, where there are no tetrahedra. This is the fraction in the fluid.
 constexpr double k_share_in_fluid = 0.75;
 
 std::string millions(double n) { return n < 1e6 ? number_text(std::round(1e-3 * n), 3) + " k" : number_text(1e-6 * n, 3) + " M"; }
@@ -53,7 +54,7 @@ double expected_tetrahedra(const SizeField& sizes) { return k_share_in_fluid * s
 
 void require_room(const Forecast& forecast, const LimitOptions& limits, const RunContext& context) {
   const bool is_given = !is_automatic(limits.max_memory);
-  // The forecast covers the whole process, and so includes the memory that the process already uses.
+  // The forecast is for the whole process. It therefore includes the memory that the process already uses.
   const double allowed = is_given ? limits.max_memory : available_memory() + resident_memory();
   const double seconds = forecast.seconds(context.threads());
   if (forecast.bytes() > allowed) {

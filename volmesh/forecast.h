@@ -1,4 +1,4 @@
-// Forecast of the size and cost of a mesh before it is made; a mesh that exceeds the machine's memory is an error at once.
+// Forecast of the size and cost of a mesh before it is made. A mesh that exceeds the memory of the machine is rejected before the work.
 #pragma once
 
 #include <cstddef>
@@ -10,23 +10,24 @@
 
 namespace sterna::volmesh {
 
-/// Forecast for the machine that docs/measurements/performance.md was measured on; memory is accurate to a quarter there, time to a factor of two.
+/// Forecast for the machine on which docs/measurements/performance.md was measured. There the memory is accurate to a quarter, and the time to a factor of two.
 struct Forecast {
   double n_triangles = 0.0;   ///< triangles of the walls with layers
   double n_prisms = 0.0;      ///< cells of the layer
-  double n_tetrahedra = 0.0;  ///< estimate from sizes and boundary
+  double n_tetrahedra = 0.0;  ///< estimated from sizes and boundary
   double bytes() const;       ///< peak memory of the whole process
   double seconds(int threads) const;
 };
 
-/// Returns the forecast before the envelope: cells of the requested layer, and the least number of tetrahedra for walls with so many triangles.
-/// \pre options of the site validated
+/// Returns the forecast before the envelope is built: cells of the requested layer, and the smallest number of tetrahedra for walls with this number of
+/// triangles.
+/// \pre the options of the site are validated
 Forecast forecast_of(const MeshingSite& site);
-/// Returns the number of tetrahedra that a size field requires, from its leaves; tetrahedra at the boundary are included.
+/// Returns the number of tetrahedra that a size field requires, computed from its leaves. It includes tetrahedra at the boundary.
 double expected_tetrahedra(const SizeField& sizes);
 
-/// Checks the forecast against the limits, and logs a long run.
-/// \throws Error(overflow) with the figures and the remedy if the forecast exceeds the allowed value; with `force` a warning
+/// Checks the forecast against the limits. Logs a message if the run will be long.
+/// \throws Error(overflow) with the numbers and the remedy if the forecast exceeds the limit; with `force` it is a warning
 void require_room(const Forecast& forecast, const LimitOptions& limits, const RunContext& context);
 
 }  // namespace sterna::volmesh

@@ -1,4 +1,4 @@
-// Continues a volume mesh from the values between its steps; all loaded data is verified again.
+// Continues a volume mesh from the values between its steps. All loaded data is verified again.
 #include <cstdint>
 #include <string>
 #include <utility>
@@ -22,7 +22,7 @@ void require_same(std::size_t found, std::size_t expected, const std::string& wh
                  .hint = "surface, envelope, layers and tetrahedra must come from one run"});
 }
 
-/// Checks that the layer stands on the wall, and that only the outer boundary is beside it.
+/// Checks that the layer stands on the wall, and that the mesh contains nothing else except the outer boundary.
 void require_layers_on(const Domain& domain, const HybridMesh& layers) {
   const TriMesh& wall = domain.wall;
   const bool has_rims = domain.has_rims();
@@ -44,7 +44,7 @@ void require_layers_on(const Domain& domain, const HybridMesh& layers) {
       "cells and quadrilaterals outside the prism columns");
 }
 
-/// Restores the layer data that make_tetrahedra() had when it ended.
+/// Restores the layer data that make_tetrahedra() had at its end.
 LayerKnowledge reprove(const LayerBase& base, Collider& collider, const Domain& domain, FilledStage& filled, const MeshCase& options,
                        const RunContext& context) {
   require_clear_input(collider, context);
@@ -54,7 +54,7 @@ LayerKnowledge reprove(const LayerBase& base, Collider& collider, const Domain& 
   envelope_options.feature_angle = filled.envelope.feature_angle;
   Extrusion extrusion{.layers = std::move(filled.layers.layers),
                       .points = std::move(filled.layers.points.raw()),
-                      .curving_shares = filled.curving_shares};  // moved temporarily: avoids a copy of a large mesh
+                      .curving_shares = filled.curving_shares};  // moved temporarily, which avoids a copy of a large mesh
   knowledge.report = report_layer(base, envelope_options, filled.envelope.envelope, extrusion, &domain.outer, context);
   filled.layers.layers = std::move(extrusion.layers);
   filled.layers.points.raw() = std::move(extrusion.points);

@@ -18,11 +18,12 @@
 namespace sterna::volmesh {
 namespace {
 
-constexpr const char* k_recovery_failure = "recovery of the boundary";  ///< sterna's own engine: another engine took over the recovery
+/// Text of the failure after which another engine made the recovery for sterna's own engine.
+constexpr const char* k_recovery_failure = "recovery of the boundary";
 
 struct SmallFace {
-  std::array<std::uint32_t, 3> corners;  ///< ascending
-  double volume = 0.0;                   ///< volume of the face's tetrahedron, m^3
+  std::array<std::uint32_t, 3> corners;  ///< vertices, ascending
+  double volume = 0.0;                   ///< m^3, volume of the tetrahedron on the face
 };
 
 std::array<std::uint32_t, 3> face_of(const std::array<std::uint32_t, 4>& tet, std::size_t opposite) {
@@ -33,7 +34,7 @@ std::array<std::uint32_t, 3> face_of(const std::array<std::uint32_t, 4>& tet, st
   return corners;
 }
 
-/// Counts volume ratios beyond the limit. Few faces have a tetrahedron at each of their corners that is so much larger; only these faces are compared with the
+/// Counts volume ratios beyond the limit. At few faces, each corner belongs to a tetrahedron that is so much larger. Only these faces are compared with the
 /// tetrahedra behind them.
 void count_growth(std::span<const Vec3> boundary, const TetraResult& tets, double limit, HardMisses& misses, const RunContext& context) {
   const auto& cells = tets.tetrahedra;
@@ -105,7 +106,7 @@ std::optional<TetraResult> fill_again(const FillBoundary& boundary, const Second
     return fill(domain, sizes, options, context);
   } catch (const FillError& error) {
     is_reproducible &= error.is_repeatable();
-    return std::nullopt;  // the engine selection has warned already
+    return std::nullopt;  // a warning is not needed, because the engine selection has already warned
   }
 }
 

@@ -1,4 +1,4 @@
-// Runs a second engine for the tetrahedra if the first engine's mesh misses hard limits that the boundary does not force.
+// Runs a second engine for the tetrahedra if the mesh of the first engine misses hard limits that the boundary does not force.
 #pragma once
 
 #include <string>
@@ -13,22 +13,23 @@
 
 namespace sterna::volmesh {
 
-/// Input that another engine needs to fill the same boundary.
+/// Input with which another engine can fill the same boundary.
 struct SecondEngine {
   TetraOptions tetrahedra;
   std::vector<SizeSource> sources;
   SizeFieldOptions sizes;
-  std::vector<Vec3> holes;  ///< as TetraBoundary::hole_points
+  std::vector<Vec3> holes;  ///< as in TetraBoundary::hole_points
   bool has_sheets = false;
   bool has_wakes = false;
 };
 
 /// Tetrahedra beyond the hard limits of gates G14 and G15.
 struct HardMisses {
-  std::int64_t n_angles = 0;  ///< tetrahedra with a dihedral angle beyond the limits of G14, except those that the boundary provably forces (remaining.h)
-  std::int64_t n_growth = 0;  ///< faces between volumes whose ratio is beyond the limit of G15
-  double smallest = 0.0;      ///< smallest dihedral angle of all tetrahedra, rad
-  double largest = 0.0;       ///< largest dihedral angle, rad
+  /// Number of tetrahedra with a dihedral angle beyond the limits of G14, except those that the boundary provably forces (remaining.h).
+  std::int64_t n_angles = 0;
+  std::int64_t n_growth = 0;  ///< number of faces between volumes whose ratio is beyond the limit of G15
+  double smallest = 0.0;      ///< rad, smallest dihedral angle of all tetrahedra
+  double largest = 0.0;       ///< rad, largest dihedral angle of all tetrahedra
   double growth = 1.0;        ///< largest ratio of volumes at a face that is beyond the limit of G15; 1 if there is none
 
   std::int64_t n() const { return n_angles + n_growth; }
@@ -36,12 +37,12 @@ struct HardMisses {
 /// Counts the tetrahedra beyond the hard limits. \pre verify_tetrahedra() passes. Parallel, O(n).
 HardMisses hard_misses(const TetraBoundary& boundary, const TetraResult& tets, const ImproveOptions& options, const RunContext& context);
 
-/// Fills the boundary with the other engine (HXT after sterna's own engine, otherwise sterna's own) and improves that mesh. This happens only if improved
-/// tetrahedra miss hard limits, `automatic` has chosen the engine, and its first attempt succeeded. Keeps the mesh with fewer misses; if equal, the mesh with
-/// the larger least angle, then the first.
-/// \p boundary: as for improve_tetrahedra(). \p failures: of the attempts before `tets`
+/// Fills the boundary with the other engine (HXT after sterna's own engine, otherwise sterna's own) and improves that mesh. This is done only if the improved
+/// tetrahedra miss hard limits, `automatic` has chosen the engine, and its first attempt succeeded. Keeps the mesh with fewer misses; if both have the same
+/// number, the mesh with the larger smallest angle; if these are also equal, the first mesh. \p boundary the same as for improve_tetrahedra(). \p failures
+/// failures of the attempts before `tets`
 /// \post `tets` and `report` are those of the mesh that is kept
-/// \return description of the comparison and the choice, for log and manifest; empty if no comparison was necessary
+/// \return description of the comparison and the choice, for log and manifest; empty if no comparison was made
 std::string choose_engine(const FillBoundary& boundary, const SecondEngine& second, const ImproveOptions& options, const std::vector<std::string>& failures,
                           TetraResult& tets, ImproveReport& report, const RunContext& context);
 

@@ -18,10 +18,10 @@
 
 namespace sterna::volmesh {
 
-/// Multi-normal fans of opened ridges that had no valid cells (close_fans.h), and stay closed.
+/// Multi-normal fans of opened ridges that had no valid cells (close_fans.h) and stay closed.
 struct ClosedFans {
   std::vector<VertexId> feet;  ///< ridge base vertices, numbered in the wall with layers before its ridges are opened
-  int n_rounds = 0;            ///< number of rounds in which fans had to be closed; after k_fan_rounds all are
+  int n_rounds = 0;            ///< number of rounds in which fans had to be closed; after k_fan_rounds all fans are closed
 };
 inline constexpr int k_fan_rounds = 5;
 
@@ -29,43 +29,46 @@ inline constexpr int k_fan_rounds = 5;
 struct EnvelopeStage {
   Envelope envelope;
   double feature_angle = 0.0;  ///< rad, given by the user or determined automatically
-  ClosedFans closed = {};      ///< numbers in the wall of the envelope
+  ClosedFans closed = {};      ///< fans, with vertex numbers of the envelope's wall
 };
 
-/// The layer under the envelope, and the tetrahedra that an engine made around it.
+/// The layer below the envelope, and the tetrahedra that an engine made around the layer.
 struct FilledStage {
-  std::optional<TriMesh> split_wall;  ///< nullopt: the wall as given, apart from sliver splitting
+  std::optional<TriMesh> split_wall;  ///< nullopt: the wall is unchanged except for sliver splitting
   EnvelopeStage envelope;             ///< envelope of that wall, at the current layer heights
-  HybridMesh layers;  ///< result of assemble_layers(): growth lines of the layer, then the outer boundary; no tetrahedra. Columns, also on opened walls
-  TetraResult tets;   ///< tetrahedra that fill boundary_of(layers); not improved, without splits
+  /// Result of assemble_layers(): growth lines of the layer, then the outer boundary, without tetrahedra. Cells are columns, also on opened walls.
+  HybridMesh layers;
+  TetraResult tets;  ///< tetrahedra that fill boundary_of(layers); they are not improved yet and have no splits
   std::vector<std::string> tetra_failures;
-  std::array<std::int64_t, 5> curving_shares{};  ///< Extrusion::curving_shares
+  std::array<std::int64_t, 5> curving_shares{};  ///< as in Extrusion::curving_shares
   std::int64_t n_split_triangles = 0;
-  NeedleReport needles;    ///< sliver report of the wall, before all other steps
-  bool is_opened = false;  ///< ridges are opened or wakes have sheets: finish_mesh() converts `layers` to cells of the given wall
+  NeedleReport needles;    ///< sliver report of the wall, which comes before all other steps
+  bool is_opened = false;  ///< ridges are opened or wakes have sheets; finish_mesh() then converts `layers` to cells of the given wall
 };
 
-/// Observer callbacks at the ends of the steps of volume_mesh(); any may be empty.
+/// Observer callbacks at the ends of the steps of volume_mesh(). Any of them may be empty.
 struct StageWatch {
-  /// Supplies the envelope, computed by the argument or loaded from elsewhere, for this wall and these options. It is verified like any other.
+  /// Returns the envelope for this wall and these options. It is computed by the argument or loaded from elsewhere. It is verified in either case.
   std::function<EnvelopeStage(const std::function<EnvelopeStage()>&)> envelope;
   std::function<void(const EnvelopeStage&)> enveloped;
   std::function<void(const FilledStage&)> filled;
 };
 
-/// volume_mesh() with observer callbacks.
+/// Runs volume_mesh() with observer callbacks.
 VolumeMeshResult volume_mesh(const TriMesh& wall, const MeshCase& options, const Makers& makers, const StageWatch& watch, const RunContext& context);
 
 /// Runs the first step.
-/// \pre,
-/// \throws as volume_mesh()
+/// \pre the precondition of volume_mesh()
+/// \throws the errors of volume_mesh()
 EnvelopeStage make_envelope(const TriMesh& wall, const MeshCase& options, const Makers& makers, const RunContext& context);
-/// Runs the second step. All data of the envelope is verified again. If multi-normal fans have no valid cells, they are closed and the first step is repeated.
-/// \pre `envelope` of make_envelope() on this wall
-/// \throws Error(bad_argument) for an envelope of another size, otherwise as the stages
+/// Runs the second step. All data of the envelope is verified again first. If multi-normal fans have no valid cells, they are closed and the first step is
+/// repeated.
+/// \pre `envelope` was returned by make_envelope() for this wall
+/// \throws Error(bad_argument) for an envelope of another size; the errors of the stages
 FilledStage make_tetrahedra(const TriMesh& wall, const EnvelopeStage& envelope, const MeshCase& options, const Makers& makers, const RunContext& context);
-/// Runs the last step: improves, joins, checks. The data of the stage is verified again; options of earlier steps affect only the report, and the tetrahedra of
-/// a second engine (second_engine.h). \throws Error(bad_argument) for parts that do not belong together, otherwise as the stages
+/// Runs the last step: improves the tetrahedra, joins them with the layer, and checks the mesh. The data of the stage is verified again. Options of earlier
+/// steps affect only the report and the tetrahedra of a second engine (second_engine.h). \throws Error(bad_argument) for parts that do not belong together; the
+/// errors of the stages
 VolumeMeshResult finish_mesh(const TriMesh& wall, FilledStage filled, const MeshCase& options, const RunContext& context);
 
 // ---- The same steps for a driver that avoids repeated verification ------------------------------------------------------------------------
@@ -77,16 +80,17 @@ struct LayerKnowledge {
   std::optional<LayerCheck> check;
   std::optional<HybridMesh> closed;         ///< cells of the given wall for a layer on an opened wall
   FillBoundary boundary;                    ///< boundary that the tetrahedra fill around `closed`
-  std::optional<SecondEngine> second = {};  ///< if another engine may fill the boundary, too
+  std::optional<SecondEngine> second = {};  ///< set if another engine may fill the boundary, too
 };
 
-/// Runs the first two steps; starts from the given envelope, if there is one.
+/// Runs the first two steps. If there is a given envelope, starts from it.
 FilledStage make_filled(const TriMesh& wall, const MeshCase& options, const Makers& makers, const StageWatch& watch, std::optional<EnvelopeStage> envelope,
                         LayerKnowledge& knowledge, const RunContext& context);
-/// Returns the case with the known state of its ridges: after the largest number of failed rounds, no ridge is opened.
+/// Returns the case with the known state of its ridges. After the largest number of failed rounds no ridge is opened.
 MeshCase with_closed_fans(MeshCase options, const ClosedFans& closed);
 EnvelopeStage make_envelope(MeshingSite& site, const Makers& makers, const RunContext& context);
-/// Makes the layer under the envelope, which may be lowered, and the tetrahedra around it. \throws Error(bad_argument) for an envelope of another size
+/// Makes the layer below the envelope, which may be lowered for this, and the tetrahedra around the layer. \throws Error(bad_argument) for an envelope of
+/// another size
 FilledStage make_tetrahedra(MeshingSite& site, EnvelopeStage envelope, const Makers& makers, LayerKnowledge& knowledge, const RunContext& context);
 /// \throws Error(bad_argument) if an envelope does not have exactly one height for each vertex
 void require_envelope_of(const LayerBase& base, const EnvelopeStage& stage);

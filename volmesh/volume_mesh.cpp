@@ -29,24 +29,24 @@ namespace {
 
 constexpr int k_max_boundary_repairs = 3;
 
-/// Shares of the total time at which steps end.
+/// Fractions of the total time at which the steps end.
 struct StepEnds {
   double envelope, prisms, tetrahedra, improve;
 };
 
-/// Fit to seconds of the steps of DLR-F6, 184 k triangles, 30 layers, with sterna's own engine on one and on two threads: a + b / threads. On one thread, sizes
-/// and the layer's verification do not run in parallel to other steps.
+/// The times are a fit a + b / threads to the seconds of the steps for the DLR-F6 with 184 k triangles and 30 layers, with sterna's own engine on one and on
+/// two threads. On one thread, the sizes and the verification of the layer do not run in parallel with other steps.
 StepEnds step_ends(int threads) {
   constexpr double k_envelope = 6.0, k_lay_out = 1.4, k_sizes = 3.3;
   constexpr double k_engine_alone = 1.0, k_engine = 2.7, k_improve_alone = 1.2, k_improve = 4.3, k_check_alone = 1.1, k_check = 2.4;
-  const double n = std::min(threads, 8);  // the serial part dominates beyond that
+  const double n = std::min(threads, 8);  // with more threads the serial part dominates
   const double envelope = k_envelope / n, prisms = envelope + k_lay_out / n,
                tetrahedra = prisms + (n == 1.0 ? k_sizes : 0.5 * k_sizes / n) + k_engine_alone + k_engine / n,
                improve = tetrahedra + k_improve_alone + k_improve / n, all = improve + k_check_alone + k_check / n;
   return {envelope / all, prisms / all, tetrahedra / all, improve / all};
 }
 
-/// Adapts the user's true surface to triangles of the wall.
+/// Adapts the true surface of the user's surface to the triangles of the wall.
 TrueSurface true_surface_of(const TrueSurface& of_surface, const Domain& domain) {
   if (!of_surface) return {};
   return [of_surface, &domain](const Point& p, TriangleId t, const std::array<double, 3>& weights) {
@@ -70,20 +70,20 @@ void tell_needles(const NeedleReport& needles, const NeedleOptions& options, con
                "); the first one is at " + format_point(needles.first_left) + hint);
 }
 
-/// Returns the boundary for engines. \p is_clear: already verified; false if patches were re-meshed.
+/// Returns the boundary for engines. \p is_clear true if it has already been verified; false if patches were re-meshed
 TetraBoundary boundary_for_engines(const FillBoundary& boundary, std::span<const Point> holes, bool is_clear, bool may_split) {
   return {boundary.points, boundary.triangles, holes, is_clear, boundary.patch_names, boundary.triangle_patch, may_split};
 }
 
-/// Result of one attempt at the tetrahedra.
+/// Result of one attempt to make the tetrahedra.
 struct Filling {
   TetraResult tets;
-  std::optional<SplitLayer> split;  ///< if the engine has split triangles: the layer with the same splits
+  std::optional<SplitLayer> split;  ///< set if the engine has split triangles: the layer with the same splits
   std::optional<LayerProof> proof;  ///< verification of the layer that the tetrahedra surround
   std::vector<Point> holes;
 };
 
-/// Fills the volume inside the split boundary, which is now kept, again after the layer had to be lowered for the splits.
+/// Fills the volume inside the split boundary again, which is now kept, after the layer had to be lowered for the splits.
 void refill(const SplitLayer& layer, const MeshCase& options, TetraResult& tets, const RunContext& context) {
   TetraOptions keeping = options.tetrahedra;
   keeping.boundary_splits = "never";
@@ -93,7 +93,7 @@ void refill(const SplitLayer& layer, const MeshCase& options, TetraResult& tets,
   tets = fill(domain, sizes, keeping, context);
 }
 
-/// Takes the first candidate of the engines whose splits the layer can adopt.
+/// Takes the first candidate of the engines whose splits can be applied to the layer.
 void climb(const MeshingSite& site, const Envelope& envelope, const Makers& makers, TetraLadder& ladder, Filling& filling, const RunContext& context) {
   const TrueSurface true_surface = true_surface_of(makers.true_surface, site.domain);
   for (;;) {
@@ -114,7 +114,7 @@ void climb(const MeshingSite& site, const Envelope& envelope, const Makers& make
 Filling fill_around(const MeshingSite& site, const Envelope& envelope, const LaidLayer& layer, const Makers& makers, const RunContext& context) {
   const StageTimer timer(context, "tetrahedra");
   Filling filling;
-  // The boundary stays unchanged if layers end on other patches, sides are periodic, ridges are opened or wakes have sheets.
+  // The boundary must stay unchanged if layers end on other patches, if sides are periodic, if ridges are opened, or if wakes have sheets.
   const bool may_split = site.base.wall.n_triangles() > 0 && !site.domain.has_rims() && site.domain.periodic.empty() && !site.domain.is_opened();
   filling.holes = find_cavity_points(site.domain.bodies, context);
   TetraBoundary domain = boundary_for_engines(layer.boundary, filling.holes, !site.domain.has_rims(), may_split);
@@ -129,7 +129,7 @@ Filling fill_around(const MeshingSite& site, const Envelope& envelope, const Lai
   const StepEnds ends = step_ends(context.threads());
   TetraLadder ladder(domain, &sizes, site.options.tetrahedra, context.part("tetrahedra", ends.prisms, ends.tetrahedra));
   Alongside<LayerProof> proof(context, ladder.begins_here() ? context.threads() : context.threads() - 1, [&sizes, &layer](const RunContext& side) {
-    sizes.wait();  // the engine needs them sooner
+    sizes.wait();  // the verification waits, because the engine needs the sizes sooner
     return prove_layer(layer.mesh, side);
   });
   climb(site, envelope, makers, ladder, filling, context);
@@ -163,10 +163,10 @@ LaidLayer adopted(SplitLayer& split, const LaidLayer& unsplit, const EnvelopeOpt
 }
 
 constexpr int k_slide_rounds = 4;
-constexpr double k_slides_begin = 0.75;  ///< share of the time
+constexpr double k_slides_begin = 0.75;  ///< fraction of the time
 
-/// Improves tetrahedra within the boundary, \p improved: already started. Then, where the boundary is the cause of bad tetrahedra, growth lines of the layer
-/// slide, and the tetrahedra around them are improved again. \p slid receives these lines, ascending.
+/// Improves tetrahedra within the boundary; \p improved is the improvement that has already started. Then, where the boundary is the cause of bad tetrahedra,
+/// ends of growth lines move, and the tetrahedra around them are improved again. \p slid receives these growth lines, ascending.
 void slide_and_improve(HybridMesh& layers, FillBoundary& boundary, TetraResult& tets, const ImproveOptions& options, ImproveReport& report,
                        std::vector<std::uint32_t>& slid, const RunContext& context) {
   const auto domain = [&] {
@@ -180,14 +180,14 @@ void slide_and_improve(HybridMesh& layers, FillBoundary& boundary, TetraResult& 
     slid.insert(slid.end(), moved.begin(), moved.end());
     if (round + 1 < k_slide_rounds)
       improve_around(domain(), moved, tets, options, report,
-                     context.part("slides", k_slides_begin + (1.0 - k_slides_begin) * round / k_slide_rounds, 1.0));  // slides come last
+                     context.part("slides", k_slides_begin + (1.0 - k_slides_begin) * round / k_slide_rounds, 1.0));  // slides come last in this step
   }
   if (slider.n_moved() > 0) tell_remaining(domain(), tets, options, report, context);
   sort_unique(slid);
   report.n_slid = static_cast<std::int64_t>(slid.size());
 }
 
-/// Returns some ridge base vertices, and those up to n_edges away along their ridges; ascending.
+/// Returns the given ridge base vertices, and those up to n_edges away along their ridges; ascending.
 std::vector<VertexId> with_feet_beside(const OpenedRidges& ridges, std::vector<VertexId> feet, int n_edges) {
   sort_unique(feet);
   for (int i = 0; i < n_edges; ++i) {
@@ -203,7 +203,7 @@ std::vector<VertexId> with_feet_beside(const OpenedRidges& ridges, std::vector<V
   return feet;
 }
 
-/// Merges patches of the same name and kind: parts of a patch that was split at its corners (split_at_corners).
+/// Merges patches of the same name and kind. They are parts of a patch that was split at its corners (split_at_corners).
 void merge_equal_patches(HybridMesh& mesh) {
   Column<PatchId, Patch> patches;
   Column<PatchId, PatchId> merged;
@@ -267,7 +267,7 @@ FilledStage make_filled(const TriMesh& wall, const MeshCase& options, const Make
     try {
       const auto make = [&] { return make_envelope(site, makers, context); };
       EnvelopeStage envelope = made ? std::move(*made) : watch.envelope && closed.n_rounds == 0 ? watch.envelope(make) : make();
-      made.reset();  // wall of this round
+      made.reset();  // the given envelope belongs to the wall of this round only
       envelope.closed = closed;
       if (watch.enveloped) watch.enveloped(envelope);
       return make_tetrahedra(site, std::move(envelope), makers, knowledge, context);
@@ -289,7 +289,7 @@ EnvelopeStage make_envelope(MeshingSite& site, const Makers& makers, const RunCo
   tell_needles(site.domain.needles, site.options.needles, context);
   const std::vector<WholePart> parts = site.domain.slits.empty() && !site.domain.is_opened()
                                            ? whole_parts(site.domain, site.options.parts, context)
-                                           : std::vector<WholePart>{};  // cut and opened walls no longer belong to placed parts
+                                           : std::vector<WholePart>{};  // walls that are cut or opened no longer belong to placed parts
   const auto of_wall = [&] {
     const WallEnvelopeMaker& make = makers.wall_envelope;
     return make ? make(site.base, site.options.envelope, site.collider, part) : build_envelope(site.base, site.options.envelope, site.collider, part);
@@ -330,7 +330,7 @@ FilledStage make_tetrahedra(MeshingSite& site, EnvelopeStage stage, const Makers
     filled.split_wall = *filling.split->wall;
     stage.envelope = std::move(filling.split->envelope);
   }
-  tell_warnings();  // warnings of a layer that is not the first any more
+  tell_warnings();  // these are the warnings of a layer that is no longer the first one
   require_proved_cells(filling.proof->cells, layer.certificate);
 
   knowledge = {std::move(layer.report), std::move(layer.certificate), std::move(filling.proof->check), {}, {}};

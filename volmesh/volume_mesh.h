@@ -1,4 +1,4 @@
-// The driver: from a wall to a hybrid mesh, as a list of steps.
+// The driver, which makes a hybrid mesh from a wall in a sequence of steps.
 #pragma once
 
 #include <string>
@@ -23,22 +23,22 @@ struct VolumeMeshResult {
   EnvelopeCertificate certificate;
   CheckReport check;
   ImproveReport improvement;
-  std::string tetra_engine;                 ///< "tetgen", "tetgen in two passes", "hxt" or "sterna"
+  std::string tetra_engine;                 ///< engine: "tetgen", "tetgen in two passes", "hxt" or "sterna"
   std::vector<std::string> tetra_failures;  ///< failures of the previous attempts, in order
-  std::string tetra_choice;                 ///< comparison and choice of choose_engine(); empty if it was not necessary
-  std::int64_t n_split_triangles = 0;       ///< additional triangles of wall and outer boundary, compared with the input
-  NeedleReport needles;                     ///< sliver splitting before the mesh was made
+  std::string tetra_choice;                 ///< text on the comparison and choice of choose_engine(); empty if there was no comparison
+  std::int64_t n_split_triangles = 0;       ///< number of triangles of wall and outer boundary that were added, compared with the input
+  NeedleReport needles;                     ///< report of the sliver splitting, which comes before the mesh
   bool is_reproducible = true;              ///< false if a time or memory limit affected the result
-  double tetra_engine_seconds = 0.0;        ///< time inside the engine alone; log only
-  double tetra_engine_peak_bytes = 0.0;     ///< log only
+  double tetra_engine_seconds = 0.0;        ///< time inside the engine alone, for the log only
+  double tetra_engine_peak_bytes = 0.0;     ///< for the log only
 };
 
-/// Makes a volume mesh. Steps: farfield, sliver triangles of the wall (split_needles.h), envelope (build_envelope.h), extrude and repair, certificate,
-/// tetrahedra, improve, assemble, check. If the tet engine had to split boundary triangles (tetra.h), wall, envelope and farfield of the mesh are split in the
-/// same way (split_layer.h). If all engines fail, the envelope is repaired and all steps from the extrusion on are repeated (repair_envelope.h), 3 times at
-/// most.
-/// \pre wall closed, manifold, free of self-intersection, normals into the fluid.
-/// \throws Error of the stages; mesh_invalid if the final check finds violations.
+/// Makes a volume mesh. Steps: farfield, sliver triangles of the wall (split_needles.h), envelope (build_envelope.h), extrusion and repair, certificate,
+/// tetrahedra, improvement, assembly, check. If the engine had to split boundary triangles (tetra.h), wall, envelope and farfield of the mesh are split in the
+/// same way (split_layer.h). If all engines fail, the envelope is repaired, and all steps from the extrusion on are repeated (repair_envelope.h), at most 3
+/// times.
+/// \pre the wall is closed, manifold and free of self-intersection; its normals point into the fluid
+/// \throws the errors of the stages; mesh_invalid if the final check finds violations
 VolumeMeshResult volume_mesh(const TriMesh& wall, const MeshCase& options, const RunContext& context);
 
 }  // namespace sterna::volmesh

@@ -1,8 +1,9 @@
 // Columns stand on the border's points, at right angles to it within the surface. All columns grow together, row by row:
-// 1. start_columns   a column for each point; near a border that is a column itself, the others are inclined like that border
-// 2. grow_rows       one step per row, at right angles to the row below, until its height reaches its edge length, or an obstacle is too near
-// 3. limit_rows      no neighbours that differ by more than one row, no inverted cell (exactly, in the plane)
-// 4. lay             cells, and the remaining border for mesh_face; if the rest cannot be meshed, rows are removed around the location
+// 1. start_columns   creates a column at each point. If the border next to the run is itself a column, the columns near it are inclined like that border.
+// 2. grow_rows       adds one step per row, at right angles to the row below, until the row is as high as its edges along the border, or an obstacle is too
+// near.
+// 3. limit_rows      removes rows so that neighbouring columns differ by at most one row and no cell is inverted (exact test in the plane).
+// 4. lay             creates the cells and passes the remaining border to mesh_face. If the rest cannot be meshed, rows are removed around the location.
 #include "surfmesh/face/band_rows.h"
 
 #include <algorithm>
@@ -23,41 +24,42 @@ namespace {
 
 using delaunay::sample;
 
-/// Smallest distance of a row vertex from another border, in lengths of its edges along the border: room for one triangle between.
+/// Smallest distance of a row vertex from another border, relative to its edges along the border: one triangle must fit between.
 constexpr double k_clearance = 1.0;
-/// Rows of two borders that face each other leave this distance to each other.
+/// Rows of two borders that face each other keep an additional distance of this many times the height of the column.
 constexpr double k_half = 1.0;
-/// Range of the ratio of a cell's width to its width at the border, from the border outwards.
+/// Limits for the width of a cell, relative to the width of its column at the border.
 constexpr double k_narrowest = 0.45, k_widest = 2.2;
-/// Columns are inclined over a reach of this many times the deflection: neighbours approach each other by at most one eighth.
+/// A border column that deviates from the right angle inclines the columns beside it over this many times its deflection. Neighbours then approach each other
+/// by at most one eighth.
 constexpr double k_lean_reach = 8.0;
-/// A step is exact to this fraction of its length (growth is reported to a per mille).
+/// A step is exact to this fraction of its length, because growth is reported with an accuracy of 0.1 %.
 constexpr double k_step_tolerance = 1e-7;
 constexpr int k_max_step_iterations = 30;
-/// Rows are removed within this many edge lengths of a location that cannot be meshed; after k_max_take_backs attempts all rows are removed.
+/// Rows are removed within this many edge lengths of a location that cannot be meshed. After k_max_take_backs attempts all rows are removed.
 constexpr double k_take_back_reach = 3.0;
 constexpr int k_max_take_backs = 12;
-/// Two smallest angles that differ by less than this are considered equal, so that diagonals alternate, rad.
+/// Rad: two smallest angles that differ by less than this are considered equal, so that diagonals alternate.
 constexpr double k_same_angle = 0.01;
 
 struct Place {
   Uv uv;
   Point point;
-  Vec3 normal;           ///< du x dv, unit
-  std::uint32_t id = 0;  ///< a border id for given points; set by `lay` for others
+  Vec3 normal;           ///< unit normal, in the direction of du x dv
+  std::uint32_t id = 0;  ///< border id for given points; `lay` sets the ids of all others
 };
 
 struct RowColumn {
-  std::vector<Place> rows;             ///< [0] on the border
+  std::vector<Place> rows;             ///< vertices of the column by row; rows[0] lies on the border
   double spacing = 0.0;                ///< m, mean length of the two edges along the border
   double at_top = 0.0;                 ///< m, mean edge length in the last row, not more than `spacing`
-  Vec3 direction;                      ///< unit, of the next step
-  std::array<double, 2> lean_share{};  ///< fraction of the inclination of the border columns at the start, at the end
-  double lean = 0.0;                   ///< rad, of the next step: from right angles towards the run's direction
-  double height = 0.0;                 ///< m, of the last row
-  double climbed = 0.0;                ///< m, sum of heights
+  Vec3 direction;                      ///< unit direction of the next step
+  std::array<double, 2> lean_share{};  ///< fractions of the border columns' inclination, at the start and at the end of the run, that this column takes over
+  double lean = 0.0;                   ///< rad: angle between the next step and the right angle, positive in the direction of the run
+  double height = 0.0;                 ///< m, height of the last row
+  double climbed = 0.0;                ///< m, sum of the heights of all rows
   bool is_growing = false;
-  bool is_given = false;  ///< its points are border points
+  bool is_given = false;  ///< the points of the column are border points
   std::size_t n_rows() const { return rows.size() - 1; }
 };
 
@@ -65,7 +67,7 @@ struct Run {
   const BandRun* wish = nullptr;
   std::vector<RowColumn> columns;
   double length = 0.0;
-  std::array<double, 2> lean{};  ///< rad: inclination of the columns on the border at the start, the end, in the growing row
+  std::array<double, 2> lean{};  ///< rad: inclination of the border columns at the start and the end of the run, in the growing row
 };
 
 /// The complete state of a face with its rows.
@@ -74,7 +76,7 @@ struct Laying {
   const FaceBorder& border;
   Vec2 scale;
   std::vector<std::uint32_t> first_of_loop;
-  std::vector<bool> is_left;  ///< by loop: the face lies to the left of the loop
+  std::vector<bool> is_left;  ///< per loop: true if the face lies to the left of the loop
   std::vector<Run> runs;
   BandMeasures measures;
 };
@@ -164,7 +166,7 @@ void start_columns(const Laying& laying, Run& run) {
     column.is_growing = i > 0 && i + 1 < n && norm2(column.direction) > 0.0;
     run.columns.push_back(std::move(column));
   }
-  // Columns on the border, and the distance over which other columns are inclined like them.
+  // The columns on the border, and the distance over which other columns are inclined like them.
   std::array<double, 2> reach{};
   for (const std::size_t end : {0u, 1u}) {
     const std::size_t n_given = end == 0 ? wish.n_before : wish.n_after;
@@ -219,7 +221,7 @@ void set_directions(const Laying& laying, Run& run, std::size_t k) {
 /// Border points as obstacles for a run. Its own points and the columns on the border beside it are no obstacles.
 struct Obstacles {
   PointGrid points;                  ///< all border points of the face, with half their edges as reach
-  std::vector<std::int32_t> run_of;  ///< by border id: -1 none; points of columns on the border belong to their run
+  std::vector<std::int32_t> run_of;  ///< by border id: number of the run, or -1. Points of columns on the border belong to the run of that column
 };
 
 Obstacles make_obstacles(const Laying& laying) {
@@ -249,13 +251,13 @@ bool is_too_near(const Obstacles& obstacles, std::int32_t run, const Point& p, d
   obstacles.points.for_each_near(p, reach, [&](const GridPoint& other) {
     const std::int32_t owner = obstacles.run_of[other.id];
     if (owner == run) return;
-    // Another run will climb as high as this one; towards a plain border only the clearance counts.
+    // The other run will climb as high as this one. Towards a plain border only the clearance is kept.
     if (norm2(other.point - p) < (owner >= 0 ? reach * reach : clearance * clearance)) is_near = true;
   });
   return is_near;
 }
 
-/// Adds a row to a column. \return false: the column ends here
+/// Adds a row to a column. \return false if the column ends here
 bool grow(const Laying& laying, const Obstacles& obstacles, std::size_t run, RowColumn& column) {
   const RowLaw& law = laying.runs[run].wish->law;
   const Place& top = column.rows.back();
@@ -298,7 +300,7 @@ bool is_upright(const Laying& laying, const Place& a, const Place& b, const Plac
 
 using PlaceTriangle = std::array<const Place*, 3>;
 
-/// Visits the triangles between columns i and i + 1 in row k (1 ..), in the sense of (u, v). A column that ends below gives one triangle.
+/// Visits the triangles between columns i and i + 1 in row k (counted from 1), counter-clockwise in (u, v). A column that ends below gives one triangle.
 template <class Visit>
 void for_each_cell(const Laying& laying, const Run& run, std::size_t i, const Visit& visit) {
   const RowColumn &left = run.columns[i], &right = run.columns[i + 1];
@@ -329,7 +331,7 @@ void cut(Run& run, std::size_t i, std::size_t k) {
 void limit_rows(const Laying& laying, Run& run) {
   std::vector<RowColumn>& columns = run.columns;
   bool is_changed = true;
-  while (is_changed) {  // every iteration removes a row
+  while (is_changed) {  // the loop ends because every iteration removes a row
     is_changed = false;
     for (std::size_t i = 0; i + 1 < columns.size(); ++i) cut(run, i + 1, columns[i].n_rows() + 2);
     for (std::size_t i = columns.size() - 1; i > 0; --i) cut(run, i - 1, columns[i].n_rows() + 2);
@@ -376,7 +378,7 @@ void measure_cells(Laying& laying) {
   }
 }
 
-/// The border left by the rows, and the identity of its points.
+/// The border that remains beside the rows, and the identity of its points.
 struct RestBorder {
   FaceBorder border;
   std::vector<std::uint32_t> ids;  ///< per point: border id, or n_border + number of the row vertex
@@ -392,7 +394,7 @@ RestBorder rest_of(Laying& laying, std::vector<const Place*>& row_places) {
         row_places.push_back(&column.rows[k]);
       }
   std::vector<std::uint8_t> is_covered(n_border, 0);
-  std::vector<std::vector<const Place*>> front_at(n_border);  // at the first point of a run, or of its column on the border
+  std::vector<std::vector<const Place*>> front_at(n_border);  // outer vertices of a run, stored at the first border point that they replace
   for (const Run& run : laying.runs) {
     std::vector<const Place*> front;
     for (const RowColumn& column : run.columns) {
@@ -405,7 +407,7 @@ RestBorder rest_of(Laying& laying, std::vector<const Place*>& row_places) {
   for (std::size_t l = 0; l < laying.border.loops.size(); ++l) {
     std::vector<BorderPoint> loop;
     const auto add = [&](Uv uv, const Point& point, std::uint32_t id) {
-      if (!loop.empty() && rest.ids.back() == id) return;  // two runs end and begin at the same point
+      if (!loop.empty() && rest.ids.back() == id) return;  // two runs meet in this point, which is added once
       loop.push_back({uv, point});
       rest.ids.push_back(id);
     };
@@ -426,7 +428,7 @@ RestBorder rest_of(Laying& laying, std::vector<const Place*>& row_places) {
   return rest;
 }
 
-/// Joins the mesh of the rest and the rows: border points first, in their order.
+/// Joins the mesh of the rest and the rows: border points come first, in their order.
 FaceMesh join(const Laying& laying, const RestBorder& rest, const std::vector<const Place*>& row_places, FaceMesh inner) {
   FaceMesh result;
   result.report = inner.report;
@@ -463,7 +465,7 @@ FaceMesh join(const Laying& laying, const RestBorder& rest, const std::vector<co
   return result;
 }
 
-/// Halves the number of rows near the locations (of all columns with `all`). \return true if there were any
+/// Halves the number of rows near the locations (with `all`: the rows of all columns). \return true if there were any
 bool take_back(Laying& laying, const std::vector<ErrorPlace>& places, bool all, std::vector<Point>& dropped) {
   bool is_any = false;
   for (Run& run : laying.runs) {

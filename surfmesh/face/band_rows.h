@@ -36,14 +36,14 @@ struct BandRun {
 /// Statistics of the triangles in bands.
 struct BandMeasures {
   std::int64_t n_triangles = 0;
-  double max_stretch = 0.0;    ///< largest ratio of length along to length across of their cells
+  double max_stretch = 0.0;    ///< largest aspect ratio of their cells: length along the border over length across it
   double max_growth = 0.0;     ///< largest ratio of the heights of consecutive rows
   std::int64_t n_columns = 0;  ///< border points on which rows stand
   std::int64_t n_without = 0;  ///< border points of runs without rows
 };
 
 struct BandedFace {
-  FaceMesh mesh;  ///< triangles of rows come last; vertices in the order of mesh_face
+  FaceMesh mesh;  ///< the triangles of rows come last; vertices are in the order of mesh_face
   BandMeasures bands;
   std::vector<Point> dropped;  ///< locations where rows were removed because the rest could not be meshed
 };

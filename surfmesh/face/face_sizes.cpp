@@ -8,13 +8,13 @@ namespace sterna::surfmesh {
 namespace {
 
 constexpr double k_no_limit = std::numeric_limits<double>::infinity();
-/// Smallest number of samples between two breaks: a bicubic piece has few bumps.
+/// Smallest number of samples between two breaks: few are needed, because a bicubic piece has few bumps.
 constexpr std::size_t k_samples_per_piece = 4;
-/// Limits for the total number of samples in a direction: the lower one resolves analytic surfaces of one piece, the upper one keeps faces of many pieces
-/// cheap.
+/// Limits for the total number of samples in one direction. The lower limit resolves analytic surfaces that are one piece; the upper one limits the cost for
+/// faces of many pieces.
 constexpr std::size_t k_min_samples = 33;
 constexpr std::size_t k_max_samples = 257;
-/// Sine squared between du and dv below which there is no normal.
+/// Squared sine of the angle between du and dv, below which the surface has no normal.
 constexpr double k_min_sine2 = 1e-20;
 /// Rounds of four sweeps that carry sizes over the grid; each sweep carries sizes any distance in its direction, so few are needed.
 constexpr int k_growth_rounds = 3;
@@ -42,8 +42,8 @@ std::pair<std::size_t, double> find_on_line(const std::vector<double>& line, dou
   return {i, length > 0.0 ? std::clamp((t - line[i]) / length, 0.0, 1.0) : 0.0};
 }
 
-/// Samples on the box's border must count as inside of polygons that run along it: they are moved by this fraction of the box towards its middle for the
-/// test.
+/// Samples on the border of the box must count as inside of polygons that run along it. For the test they are moved towards the middle of the box, by this
+/// fraction of its size.
 constexpr double k_inwards = 1e-6;
 double inwards(double t, const Interval& range) { return t + k_inwards * (0.5 * (range.from + range.to) - t); }
 
@@ -69,7 +69,7 @@ void find_crossings_of_row(std::span<const std::vector<Uv>> loops, double u, std
   std::sort(crossings.begin(), crossings.end());
 }
 
-/// Sizes are met on average only: edges are up to about 1.3 times as long, and the error grows with the square of their length.
+/// Edges match the sizes on average only: they are up to about 1.3 times as long, and the error grows with the square of their length.
 constexpr double k_error_share = 0.6;
 
 }  // namespace
@@ -97,8 +97,8 @@ double CurvatureLimits::size_of(double curvature) const {
   const auto chord = [&](double by) { return std::isfinite(by) ? 2.0 * std::sin(0.5 * by) * radius : k_no_limit; };
   const double size = std::max({chord(angle), std::min(min_edge, chord(most_turn)), least_edge});
   if (!std::isfinite(chord_error)) return size;
-  // The arc over an equilateral triangle's middle rises by e if its edges are l: l^2 = 3 (2 R e - e^2). Curvatures above 1/e lead to the size that spans a
-  // feature as high as the error, and never to less: finer edges would not bring the surface nearer.
+  // The arc over the middle of an equilateral triangle with the edge length l rises by e: l^2 = 3 (2 R e - e^2). Curvatures above 1/e lead to the size that
+  // spans a feature as high as the error, and never to less, because finer edges would not bring the surface nearer.
   const double e = k_error_share * chord_error, r = std::max(radius, e);
   return std::min(size, std::max(error_edge, std::sqrt(3.0 * (2.0 * r * e - e * e))));
 }
@@ -127,7 +127,7 @@ CurvatureSizes::CurvatureSizes(const Surface& surface, const ParameterBox& box, 
       const SurfaceDerivatives d = surface.derivatives({u_[i], v_[j]});
       points_[k] = d.point;
       const bool is_inside = loops.empty() || (std::upper_bound(crossings.begin(), crossings.end(), inwards(v_[j], box.v)) - crossings.begin()) % 2 == 1;
-      // Some parametrisations have no finite speed on their border (a square root at a nose): such samples are ignored.
+      // Some parametrisations have no finite speed on their border (a square root at a nose). Samples there are ignored.
       if (is_finite(d.du)) {
         mean_speed_u_ += norm(d.du);
         ++n_fast_u;

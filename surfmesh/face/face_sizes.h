@@ -17,13 +17,13 @@ double largest_curvature(const SurfaceDerivatives& d);
 /// Limits of the sizes derived from curvature.
 struct CurvatureLimits {
   double angle = 0.2;                                            ///< rad: an edge spans at most this angle
-  double chord_error = std::numeric_limits<double>::infinity();  ///< m: triangles are no farther from the surface
-  double min_edge = 0.0;                                         ///< m: lower limit of sizes from the angle,
-  double most_turn = std::numeric_limits<double>::infinity();    ///< rad: unless such an edge would span more than this angle,
-  double least_edge = 0.0;                                       ///< m: in which case this is the lower limit
-  double error_edge = 0.0;                                       ///< m: lower limit of sizes from the chord error
-  double growth = 0.3;                                           ///< change of length per distance; infinite: no limit between samples
-  /// Combines the limits of the two faces beside an edge: the smaller of each member except growth.
+  double chord_error = std::numeric_limits<double>::infinity();  ///< m: largest distance of triangles from the surface
+  double min_edge = 0.0;                                         ///< m: lower limit of the sizes that follow from `angle`,
+  double most_turn = std::numeric_limits<double>::infinity();    ///< rad: unless an edge of that length would span more than this angle;
+  double least_edge = 0.0;                                       ///< m: in that case this is the lower limit
+  double error_edge = 0.0;                                       ///< m: lower limit of the sizes that follow from the chord error
+  double growth = 0.3;                                           ///< largest change of length per distance; infinite: no limit between samples
+  /// Combines the limits of the two faces beside an edge: takes the smaller value of each member except growth.
   void take_less(const CurvatureLimits& other);
   /// Returns the size in metres for a curvature; infinite for zero curvature.
   double size_of(double curvature) const;
@@ -35,17 +35,17 @@ class CurvatureSizes {
   /// parity) count: trimmed regions are ignored. Sizes are infinite until limit() is called.
   CurvatureSizes(const Surface& surface, const ParameterBox& box, std::span<const std::vector<Uv>> loops = {});
   /// Converts curvatures into sizes.
-  /// \pre not called before
+  /// \pre limit() has not been called before
   void limit(const CurvatureLimits& limits);
   /// Returns the size in metres, bilinear between samples; infinite on a plane.
   double operator()(Uv at) const;
-  /// Calls visit(point, size) for every sample inside.
+  /// Calls visit(point, size) for every sample inside the loops.
   template <class Visit>
   void for_each_inside(const Visit& visit) const {
     for (std::size_t i = 0; i < points_.size(); ++i)
       if (is_inside_[i] != 0) visit(points_[i], size_[i]);
   }
-  /// Calls visit(size, area) for every sample inside with its share of area(), m^2.
+  /// Calls visit(size, area) for every sample inside the loops, with its share of area(), m^2.
   template <class Visit>
   void for_each_cell(const Visit& visit) const {
     double sum = 0.0;
@@ -54,7 +54,8 @@ class CurvatureSizes {
     for (std::size_t i = 0; i < points_.size(); ++i)
       if (cell_[i] > 0.0) visit(size_[i], cell_[i] * area_ / sum);
   }
-  /// Returns the area inside in m^2: exact on planes, elsewhere from the samples, a few per cent off where the border is not the box.
+  /// Returns the area inside the loops in m^2. It is exact on planes, and a few per cent off on other surfaces, where it is computed from the samples, if the
+  /// border is not the box.
   double area() const { return area_; }
   /// Mean lengths of du and dv over the samples, metres per parameter unit.
   double mean_speed_u() const { return mean_speed_u_; }
@@ -62,10 +63,10 @@ class CurvatureSizes {
 
  private:
   std::vector<double> u_, v_;
-  std::vector<double> curvature_;  ///< curvature_[i * v_.size() + j], 1/m; zero outside; empty once sizes are limited
+  std::vector<double> curvature_;  ///< curvature_[i * v_.size() + j], 1/m; zero outside the loops; empty once sizes are limited
   std::vector<double> size_;
   std::vector<Point> points_;
-  std::vector<double> cell_;  ///< area around a sample, m^2; zero outside
+  std::vector<double> cell_;  ///< m^2, area around each sample; zero outside the loops
   std::vector<std::uint8_t> is_inside_;
   double area_ = 0.0;
   double mean_speed_u_ = 0.0;

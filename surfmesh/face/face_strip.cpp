@@ -12,7 +12,7 @@ namespace {
 
 using delaunay::sample;
 
-/// The shape of a short side influences the strip over this many times its length.
+/// The shape of a short side affects the strip over a distance of this many times its length.
 constexpr double k_end_reach = 2.0;
 
 struct Grid {
@@ -43,7 +43,7 @@ std::optional<BandedFace> mesh_strip(const Surface& surface, const FaceBorder& b
     mesh.uv.push_back(p.uv);
   }
   const auto between = [](Uv a, Uv b, double t) { return (1.0 - t) * a + t * b; };
-  // Deviation of the short sides from straight lines in (u, v), carried inwards over a few of their lengths.
+  // Deviation of the short sides from straight lines in (u, v). It is carried into the strip over a few lengths of the short sides.
   const double width_start = distance(loop[first_side(0)].point, loop[second_side(0)].point),
                width_end = distance(loop[first_side(n_along)].point, loop[second_side(n_along)].point);
   std::vector<double> along{0.0};

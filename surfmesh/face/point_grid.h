@@ -24,7 +24,7 @@ class PointGrid {
     Box box;
     for (const GridPoint& p : points) box.add(p.point);
     if (box.empty()) return;
-    constexpr double k_cells_by_side = 64.0;  // border points lie along lines: with this many cells per side, each holds few points
+    constexpr double k_cells_by_side = 64.0;  // Border points lie along lines: with this many cells per side, each cell holds few points
     low_ = box.min;
     side_ = std::max(box.longest_side() / k_cells_by_side, 1e-300);
     for (const GridPoint& p : points) entries_.push_back({cell_of(p.point), p});

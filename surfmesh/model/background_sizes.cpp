@@ -8,14 +8,14 @@
 namespace sterna::surfmesh {
 namespace {
 
-/// Sites are thinned in cells of the power of two below this fraction of their size: with growth 0.2 a field is off by a tenth at most.
+/// Sites are thinned in cells whose edge is the power of two below this fraction of the size of the site. With growth 0.2 the error of a field is at most 10 %.
 constexpr double k_thinning = 0.5;
 
 bool is_before(const SizeSite& a, const SizeSite& b) {
   return std::tie(a.size, a.point.x, a.point.y, a.point.z) < std::tie(b.size, b.point.x, b.point.y, b.point.z);
 }
 
-/// Returns the smallest site of each cell of its size's grid.
+/// Returns the smallest site in each cell of the grid. The size of a site determines its grid.
 std::vector<SizeSite> thinned(const std::vector<SizeSite>& sites, double largest) {
   struct Entry {
     std::array<std::int64_t, 4> cell;

@@ -1,4 +1,4 @@
-// Target edge length all over a model: the minimum over the targets at given points, each growing with the distance from its point.
+// Target edge length everywhere in a model: the minimum over the targets at given points. Each target grows with the distance from its point.
 #pragma once
 
 #include <vector>
@@ -8,8 +8,8 @@
 
 namespace sterna::surfmesh {
 
-/// size(p) = min over sites of size_i + growth |p - x_i|, with distances through space: a lower bound of what SurfaceSizes carries along the surface.
-/// Sites closer to each other than half of their size are thinned to the smallest of them.
+/// size(p) = min over sites of size_i + growth |p - x_i|, with distances through space. This is a lower bound of the sizes that SurfaceSizes carries along the
+/// surface. Sites closer to each other than half of their size are thinned to the smallest of them.
 class BackgroundSizes {
  public:
   /// `growth`: change of length per distance, > 0. Only sites below `largest` matter.

@@ -34,7 +34,7 @@ BorderSegments segments_of(const Model& model, const ModelTopology& topology, co
         current = {};
         if (own.is_valid() && !model.edges[own].is_degenerate() && topology.is_point[own] == 0) {
           current.edge = topology.same_as[own].edge;
-          // Vertices of an edge are numbered along its parameter; with fewer than two of them, the corners determine the direction.
+          // The vertices of an edge are numbered along its parameter. An edge with fewer than two vertices gets its direction from its corners.
           const VertexId id = labelled.ids[first + i], next = labelled.ids[first + (i + 1) % n], second = labelled.ids[first + (i + 2) % n];
           const VertexId from = numbers.of_corner[topology.corner[model.edges[current.edge].start]];
           const bool has_two = cuts[current.edge].t.size() > 1;
@@ -81,7 +81,7 @@ std::vector<BandRun> band_runs(FaceId f, const LabelledBorder& labelled, const B
         run.law.first = std::min(run.law.first, band_at(i + run.n_points - 1)->first);
         ++run.n_points;
       }
-      // A band that continues beyond the face has columns on the edges that leave it there.
+      // A band that continues beyond the face has columns on the edges that leave the band there.
       const std::size_t last = i + run.n_points - 1;
       if (const BorderSegment& before = segments[(i + n - 1) % n]; before.edge.is_valid() && bands.crossings[before.edge][before.is_forward ? 1 : 0].is_any)
         run.n_before = before.n_rows_at_end;

@@ -13,12 +13,12 @@ namespace sterna::surfmesh {
 
 /// Segment from one point of a border to the next.
 struct BorderSegment {
-  EdgeId edge;                                         ///< edge on which the segment lies; invalid along poles and along the face's own seams
-  bool is_forward = true;                              ///< runs in the direction of that edge's parameter
+  EdgeId edge;                                         ///< edge on which the segment lies; invalid at poles and on seams that the mesher added to the face
+  bool is_forward = true;                              ///< the segment runs in the direction of that edge's parameter
   bool is_first = false;                               ///< first segment of its edge use
-  std::size_t n_rows_at_start = 0, n_rows_at_end = 0;  ///< rows of the edge use, in the direction of the border
+  std::size_t n_rows_at_start = 0, n_rows_at_end = 0;  ///< rows at the two ends of the edge use, in the direction of the border
 };
-/// Segments in the order of the loops' points: from each point to the next.
+/// Segments in the order of the points of each loop: segment i runs from point i to the next point.
 using BorderSegments = std::vector<std::vector<BorderSegment>>;
 BorderSegments segments_of(const Model& model, const ModelTopology& topology, const Column<EdgeId, EdgeCut>& cuts, const BorderVertices& numbers,
                            const LabelledBorder& labelled);

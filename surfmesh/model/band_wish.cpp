@@ -40,7 +40,7 @@ BandWishes band_wishes(const std::string& name, BandWishes wishes, double refine
     overrule(wishes.leading.growth, rule.leading_edge_growth);
     overrule(wishes.trailing.growth, rule.trailing_edge_growth);
   }
-  // The next mesh of a family: lengths are divided by the factor, so there are more cells by that factor, and growth becomes the corresponding root
+  // The next mesh of a family: lengths are divided by the factor, so the number of cells is multiplied by it. Growth becomes the corresponding root
   // (docs/method/quality.md, "Mesh families").
   for (BandWish* wish : {&wishes.leading, &wishes.trailing}) {
     wish->chordwise /= refinement;

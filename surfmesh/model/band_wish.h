@@ -10,10 +10,10 @@ namespace sterna::surfmesh {
 
 /// Requirements of a face along its leading or trailing edges. NaN: not given.
 struct BandWish {
-  double chordwise = k_automatic;  ///< m, first cell
-  double stretch = k_automatic;    ///< longest cell size along the edge : first cell size across it
+  double chordwise = k_automatic;  ///< m, height of the first cell
+  double stretch = k_automatic;    ///< ratio of the longest cell size along the edge to the first cell size across it
   double growth = 1.2;
-  std::string rule;  ///< names of the rules that set the values; empty: the options for all faces
+  std::string rule;  ///< names of the rules that set the values; empty: the values come from the options for all faces
   bool is_any() const { return !is_automatic(chordwise) || !is_automatic(stretch); }
 
   /// Returns the first cell height in metres. If only a stretch is given, the height follows from the longest edge.
@@ -34,7 +34,7 @@ struct BandWishes {
 template <class Options>
 BandWishes band_wishes(const std::string& name, const Options& options, std::span<const PatchSurfaceOptions> patches);
 
-/// Applies the rules for this name to given requirements. \param refinement of the current member of the refinement family
+/// Applies the rules for this name to given requirements. \param refinement refinement factor of the current member of the refinement family
 BandWishes band_wishes(const std::string& name, BandWishes wishes, double refinement, std::span<const PatchSurfaceOptions> patches);
 
 template <class Options>

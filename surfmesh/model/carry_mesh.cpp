@@ -21,7 +21,7 @@
 namespace sterna::surfmesh {
 namespace {
 
-constexpr double k_carried_sine2 = 1e-16;  ///< below: du and dv are parallel within double precision, and the surface has no normal
+constexpr double k_carried_sine2 = 1e-16;  ///< sine squared; below this limit du and dv are parallel within double precision, and the surface has no normal
 constexpr double k_least_angle = 20.0 * k_degree, k_largest_angle = 130.0 * k_degree;  ///< range of FaceMeshReport::n_outside_20_130
 
 // ---- Locations of vertices in a face ---------------------------------------------------------------------------------------------------------
@@ -29,10 +29,10 @@ constexpr double k_least_angle = 20.0 * k_degree, k_largest_angle = 130.0 * k_de
 /// A location of a vertex in one face.
 struct Candidate {
   Uv at;
-  EdgeId edge;  ///< edge on which it lies; invalid inside
+  EdgeId edge;  ///< edge on which the location lies; invalid inside the face
 };
 
-/// The vertices on the borders of a model's faces, by face.
+/// The vertices on the borders of the faces of a model, sorted by face.
 class BorderPlaces {
  public:
   BorderPlaces(const SurfaceMesh& mesh, const Model& model) : mesh_(mesh), model_(model), of_corner_(mesh.mesh.n_vertices()) {
@@ -40,8 +40,8 @@ class BorderPlaces {
       if (const VertexId v = mesh.corner_vertices[c]; v.is_valid()) of_corner_[v].push_back(c);
   }
 
-  /// Returns all locations of the vertex in the face, in the order of its borders; `places` contains the inner ones. Never empty for a vertex of one of its
-  /// triangles, unless the edge of the face there was absorbed.
+  /// Returns all locations of the vertex in the face, in the order of its borders. Locations of inner vertices come from `places`. The result is never empty
+  /// for a vertex of a triangle of the face, unless the edge of the face there was absorbed.
   std::vector<Candidate> in_face(VertexId v, FaceId f) const {
     const EdgePlace& on_edge = mesh_.edge_places[v];
     if (!on_edge.edge.is_valid() && of_corner_[v].empty()) return {{mesh_.places[v].at, {}}};
@@ -74,7 +74,7 @@ class BorderPlaces {
   Column<VertexId, std::vector<CornerId>> of_corner_;
 };
 
-/// Distances in (u, v) as fractions of the face's extent, across periods.
+/// Measures distances in (u, v) as fractions of the face's extent, with periods taken into account.
 class Nearness {
  public:
   Nearness(const Surface& surface, const ParameterBox& box) {
@@ -95,7 +95,7 @@ class Nearness {
   Axis u_, v_;
 };
 
-/// Returns the locations nearest to each other, the first ones if several are equally near; candidates[k] not empty.
+/// Returns the three locations, one per corner, that are nearest to each other, the first ones if several are equally near. \pre candidates[k] is not empty
 std::array<std::size_t, 3> nearest_together(const std::array<std::vector<Candidate>, 3>& candidates, const Nearness& nearness) {
   std::array<std::size_t, 3> best{};
   double least = std::numeric_limits<double>::infinity();
@@ -121,8 +121,8 @@ Vec3 normal_at(const Surface& surface, Uv at) {
 /// The face's own triangulation before the faces were joined; its border vertices are ordered by first use in the triangles.
 struct OwnFace {
   MeshedFace face;
-  std::vector<EdgeId> border_edges;   ///< per border vertex; invalid if not known
-  std::vector<TriangleId> triangles;  ///< numbers in the joined mesh
+  std::vector<EdgeId> border_edges;   ///< per border vertex: edge on which it lies; invalid if not known
+  std::vector<TriangleId> triangles;  ///< numbers of the triangles in the joined mesh
 };
 
 OwnFace own_face(const SurfaceMesh& mesh, const Model& model, const BorderPlaces& places, const ParameterBox& box, FaceId f,
@@ -136,7 +136,7 @@ OwnFace own_face(const SurfaceMesh& mesh, const Model& model, const BorderPlaces
     Candidate at;
   };
   std::vector<Local> border, inner;
-  std::map<std::pair<VertexId, std::size_t>, std::uint32_t> number;  // by vertex and candidate; numbers of inner vertices follow those of the border, below
+  std::map<std::pair<VertexId, std::size_t>, std::uint32_t> number;  // number by vertex and candidate; inner vertices are numbered after those of the border
   std::vector<std::array<std::pair<bool, std::uint32_t>, 3>> corners;
   for (const TriangleId t : own.triangles) {
     const TriangleVertices& v = mesh.mesh.triangles[t];
@@ -181,7 +181,7 @@ OwnFace own_face(const SurfaceMesh& mesh, const Model& model, const BorderPlaces
 // ---- Checks ----------------------------------------------------------------------------------------------------------------------------------
 
 struct Shape {
-  double least = 0.0, largest = 0.0;  ///< rad
+  double least = 0.0, largest = 0.0;  ///< rad, smallest and largest angle
 };
 Shape shape_of(const std::array<Point, 3>& p) {
   const std::array<double, 3> angles{corner_angle(p[0], p[1], p[2]), corner_angle(p[1], p[2], p[0]), corner_angle(p[2], p[0], p[1])};
@@ -191,7 +191,7 @@ Shape shape_of(const std::array<Point, 3>& p) {
 /// Triangles with the same fault, and the worst value.
 struct Fault {
   std::int64_t n = 0;
-  double worst = 0.0;  ///< larger is worse
+  double worst = 0.0;  ///< worst value; larger is worse
   double value = 0.0, limit = 0.0;
   Point place{};
   void add(double badness, double of_value, double of_limit, const Point& at) {
@@ -285,7 +285,7 @@ void measure_angles(const OwnFace& own, const SurfaceMesh& now, FaceMesh& face) 
   }
 }
 
-/// Returns the new location of an absorbed part: moved like the nearest vertex.
+/// Returns the new location of an absorbed part. The part moves like the nearest vertex.
 Point moved_place(const Point& place, const SurfaceMesh& before, const Column<VertexId, Point>& points) {
   double nearest = std::numeric_limits<double>::infinity();
   VertexId of_nearest;

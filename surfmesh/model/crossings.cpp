@@ -15,17 +15,18 @@ namespace {
 
 /// Largest number of triangles in the drawing of an error.
 constexpr std::size_t k_drawn_triangles = 50'000;
-/// Relative to a triangle's longest edge: facets that span 12 to 30 degrees deviate from their surface by a fiftieth to a fifteenth of it.
+/// Crossings less deep than this fraction of a triangle's longest edge can come from coarse facets: facets that span 12 to 30 degrees deviate from their
+/// surface by a fiftieth to a fifteenth of their edge.
 constexpr double k_shallow = 0.1;
-/// Relative to the longest edge: parts nearer than this touch, which refinement does not change.
+/// Parts nearer than this fraction of the longest edge touch. Refinement does not change that.
 constexpr double k_touching = 1e-9;
 
-/// Rad: triangles that deviate this much from their surface's normals are on a surface that turns over between their corners.
+/// Rad: triangles that deviate by more than this from the normals of their surface lie on a surface that turns over between their corners.
 constexpr double k_folded = 0.5 * std::numbers::pi;
 
 using Triangle = std::array<Point, 3>;
 
-/// Groups of faces: a solid, or faces without a solid that share edges.
+/// Groups of faces: the faces of a solid, or faces without a solid that share edges.
 struct Parts {
   Column<FaceId, std::uint32_t> of_face;
   std::vector<bool> is_closed;
@@ -65,7 +66,7 @@ Parts parts_of(const Model& model) {
 
 double longest_edge(const Triangle& p) { return std::max({distance(p[0], p[1]), distance(p[1], p[2]), distance(p[2], p[0])}); }
 
-/// Returns the distance by which a reaches through the plane of b: the smaller of its reaches to both sides.
+/// Returns the distance by which `a` passes through the plane of `b`: the smaller of its distances on the two sides.
 double depth_through(const Triangle& a, const Triangle& b) {
   const Vec3 area = cross(b[1] - b[0], b[2] - b[0]);
   if (norm2(area) == 0.0) return 0.0;
@@ -84,7 +85,8 @@ bool is_shallow(const Triangle& a, const Triangle& b) {
   return depth > k_touching * length && depth < k_shallow * length;
 }
 
-/// Returns a location on a surface near `target`, from an initial guess: Newton's method in the tangent plane, untrimmed.
+/// Returns a location on a surface near `target`, starting from an initial guess. Uses Newton's method in the tangent plane; the trimming of the face is
+/// ignored.
 Point nearest_on(const Surface& surface, const Point& target, Uv& at) {
   constexpr int k_steps = 6;
   constexpr double k_least_sine2 = 1e-16;
@@ -103,10 +105,11 @@ Point nearest_on(const Surface& surface, const Point& target, Uv& at) {
   return d.point;
 }
 
-/// Returns the gap between the surfaces of two triangles near them; zero if they meet. Computed by alternating projection.
+/// Returns the gap between the surfaces of two triangles near these triangles; zero if the surfaces meet. Computed by alternating projection.
 double gap_between(const Model& model, const SurfaceMesh& mesh, TriangleId a, TriangleId b, double depth) {
   constexpr int k_turns = 40;
-  constexpr double k_apart = 0.01;  // relative to the depth of the crossing: limit of the gap, because alternating projections are not converged after k_turns
+  // Relative to the depth of the crossing: smaller gaps count as zero, because the alternating projection has not converged after k_turns.
+  constexpr double k_apart = 0.01;
   const auto guess = [&](TriangleId t) -> std::optional<Uv> {
     for (const VertexId v : mesh.mesh.triangles[t])
       if (mesh.places[v].face == mesh.triangle_face[t]) return mesh.places[v].at;
@@ -126,8 +129,8 @@ double gap_between(const Model& model, const SurfaceMesh& mesh, TriangleId a, Tr
   return gap;
 }
 
-/// Returns the factor for the edges of two crossing triangles; 1: smaller triangles would cross as well. The distance of facets from their surface falls with
-/// the square of their length.
+/// Returns the factor by which the edges of two crossing triangles should be shortened. 1: smaller triangles would cross as well. The distance of facets from
+/// their surface falls with the square of their length.
 double refining_factor(const Model& model, const SurfaceMesh& mesh, TriangleId a, TriangleId b, bool is_one_part) {
   constexpr double k_most = 0.5, k_least = 0.05;
   constexpr double k_safety = 0.7;
@@ -139,7 +142,7 @@ double refining_factor(const Model& model, const SurfaceMesh& mesh, TriangleId a
   return is_one_part ? k_most : 1.0;
 }
 
-/// Returns a point on both triangles within double precision, where edges of one meet the other.
+/// Returns a point on both triangles within double precision, at the intersection of an edge of one triangle with the other triangle.
 Point crossing_place(const Triangle& a, const Triangle& b) {
   Vec3 sum;
   double n = 0.0;
@@ -205,7 +208,7 @@ MeshCrossings find_mesh_crossings(const Model& model, const SurfaceMesh& mesh, c
     result.refinable.push_back({a, factor});
     result.refinable.push_back({b, factor});
   }
-  // Keep the smallest factor of each triangle.
+  // Only the smallest factor of each triangle is kept.
   std::sort(result.refinable.begin(), result.refinable.end(),
             [](const RefinableTriangle& a, const RefinableTriangle& b) { return std::pair(a.triangle, a.factor) < std::pair(b.triangle, b.factor); });
   result.refinable.erase(std::unique(result.refinable.begin(), result.refinable.end(),

@@ -17,18 +17,18 @@ struct RefinableTriangle {
 };
 
 struct MeshCrossings {
-  std::vector<std::array<TriangleId, 2>> pairs;  ///< sorted; the first k_most_pairs
+  std::vector<std::array<TriangleId, 2>> pairs;  ///< sorted; at most k_most_pairs pairs
   std::int64_t total = 0;
-  std::vector<RefinableTriangle> refinable;  ///< ascending: within one part, and between parts whose surfaces are apart
+  std::vector<RefinableTriangle> refinable;  ///< ascending: triangles of crossings within one part, and between parts whose surfaces do not meet
 };
 
-/// With more pairs than this, a part of the model lies inside another one, and further pairs add no information.
+/// If there are more pairs than this, one part of the model lies inside another, and further pairs add no information.
 inline constexpr std::size_t k_most_pairs = 100'000;
 
 /// Finds crossings with exact predicates (geom/math/intersect.h). Triangles of two parts that touch count as well.
 MeshCrossings find_mesh_crossings(const Model& model, const SurfaceMesh& mesh, const RunContext& context);
 
-/// Returns the pairs of faces by falling number of crossings.
+/// Returns the pairs of faces, sorted by falling number of crossings.
 std::vector<CrossingFaces> crossing_faces(const Model& model, const SurfaceMesh& mesh, const MeshCrossings& crossings);
 
 /// Returns an error with the faces, locations and triangles, and a remedy: a union if closed parts intersect each other, a repair if a part crosses itself.

@@ -17,32 +17,32 @@
 namespace sterna::surfmesh {
 namespace {
 
-/// A triangle of the wall may be farther than the nearest one by this fraction of its longest edge and its face still be the nearest: facets of 24 degrees
-/// sag by a twentieth of an edge on either side.
+/// The nearest face may have a triangle of the wall that is farther than the nearest triangle by this fraction of its longest edge: facets of 24 degrees sag by
+/// a twentieth of an edge on either side.
 constexpr double k_reach = 0.1;
-/// Faces up to this many times as far as the nearest one count for the normal: a facet over a crease sags towards both.
+/// Faces up to this many times as far as the nearest one are used for the comparison of normals: a facet across a crease lies between both faces.
 constexpr double k_near_edges = 2.0;
-/// Relative to the body length: within this distance all faces count, however near the nearest is. Edges of models meet their faces within about this
-/// distance.
+/// Relative to the body length: all faces within this distance are used, even if the nearest face is much nearer. Edges of models deviate from their faces by
+/// about this distance.
 constexpr double k_same_place = 1e-9;
-/// Relative to the body length: a node within this distance of the wall's vertex is on the model, and no other location is searched.
+/// Relative to the body length: a node within this distance of a vertex of the wall lies on the model, and no other location is searched.
 constexpr double k_same = 1e-14;
-/// Queries per chunk: each takes 5 to 50 us.
+/// Queries per chunk. One query takes 5 to 50 us.
 constexpr std::size_t k_chunk = 64;
 
 struct Facet {
   std::array<std::uint32_t, 4> nodes{};
   std::uint8_t size = 3;
   PatchId patch;
-  std::uint64_t number = 0;  ///< in the boundary: triangles, then quads
+  std::uint64_t number = 0;  ///< number in the boundary: triangles come first, then quads
 };
 
-/// The measured entities: facets with normals out of the body, and their nodes.
+/// The measured entities: facets with normals that point out of the body, and their nodes.
 struct Walls {
   const std::vector<Point>& points;
   std::vector<Facet> facets;
-  std::vector<std::uint32_t> nodes;  ///< ascending
-  std::vector<PatchId> node_patch;   ///< patch of the first facet with the node
+  std::vector<std::uint32_t> nodes;  ///< node numbers, ascending
+  std::vector<PatchId> node_patch;   ///< per node: patch of the first facet that contains it
   const Column<PatchId, Patch>& patches;
   std::vector<std::string> unknown;
 };
@@ -60,7 +60,7 @@ std::array<double, 3> weights_of(const Point& q, const std::array<Point, 3>& t) 
 struct NearFace {
   FaceId face;
   TriangleId nearest;
-  Point point;  ///< on the triangle
+  Point point;  ///< nearest point on the triangle
   double distance2 = 0.0;
   std::vector<TriangleId> triangles;
 };
@@ -93,10 +93,10 @@ class Probe {
   }
 
   struct Turn {
-    double angle = 0.0;  ///< rad; NaN: a facet without area
+    double angle = 0.0;  ///< rad; NaN for a facet without area
     bool is_beside = false, is_without = false;
   };
-  /// `normal` points out of the body.
+  /// \pre `normal` points out of the body.
   Turn turn_of(const Point& centroid, const Vec3& normal) const {
     const std::vector<ModelFoot> all = feet(centroid, tree_.nearest(centroid));
     const double reach = std::max(k_near_edges * least_distance(all), k_same_place * length_);
@@ -135,7 +135,7 @@ class Probe {
     return best;
   }
 
-  /// Sorted by ascending face.
+  /// Returns the triangles sorted by ascending face.
   std::vector<NearFace> faces_near(const Point& p, double reach) const {
     std::vector<NearFace> faces;
     const Vec3 r{reach, reach, reach};
@@ -169,7 +169,7 @@ class Probe {
       for (std::size_t k = 0; k < 3; ++k)
         if (const std::optional<ModelFoot> on_edge = model_.edge_foot(p, t, k); on_edge && on_edge->distance < best.distance) best = *on_edge;
     if (best.face.is_valid()) return best;
-    // The face's border is an edge too short for the mesh: the distance to the triangle is used instead.
+    // The border of the face is an edge that is too short for the mesh. The distance to the triangle is used instead.
     ModelFoot stand_in = foot;
     stand_in.distance = std::max(foot.distance, std::sqrt(near.distance2));
     return stand_in;
@@ -181,7 +181,7 @@ class Probe {
   TriangleTree tree_;
 };
 
-/// Flags those of `patches` that the wall has by name; those of kind wall that are missing there are recorded.
+/// Flags the `patches` that the wall has by name. Patches of kind wall that the surface does not have are recorded.
 Column<PatchId, std::uint8_t> known_patches(const TriMesh& wall, Walls& walls) {
   std::set<std::string> names;
   for (const Patch& patch : wall.patches) names.insert(patch.name);
@@ -275,7 +275,7 @@ Deviation measure(const Walls& walls, const TriMesh& wall, const ModelWall& mode
 Deviation measure_deviation(const HybridMesh& mesh, const TriMesh& wall, const ModelWall& model, const GateTable& limits, const RunContext& context) {
   Walls walls{.points = mesh.points.raw(), .facets = {}, .nodes = {}, .node_patch = {}, .patches = mesh.patches, .unknown = {}};
   const Column<PatchId, std::uint8_t> is_known = known_patches(wall, walls);
-  // Boundary faces point out of the fluid, into the body: their orientation is reversed.
+  // Boundary faces point out of the fluid, into the body. Their orientation is reversed.
   for (std::size_t i = 0; i < mesh.boundary_triangles.size(); ++i)
     if (const auto& [n, patch] = mesh.boundary_triangles[i]; is_known[patch])
       walls.facets.push_back({{n[0].value(), n[2].value(), n[1].value(), 0}, 3, patch, i});

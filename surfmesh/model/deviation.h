@@ -15,13 +15,13 @@
 namespace sterna::surfmesh {
 
 struct Deviation {
-  GateResult distance;                     ///< Measure::cad_distance: nodes, distance to the model over `length`
-  GateResult normal;                       ///< Measure::cad_normal: facets, angle to the model's outward normal at the point nearest to the facet's centroid
+  GateResult distance;                     ///< Measure::cad_distance: distance of nodes to the model over `length`
+  GateResult normal;                       ///< Measure::cad_normal: angle of facets to the model's outward normal at the point nearest to the facet's centroid
   double length = 0.0;                     ///< m: body length of the wall
-  std::int64_t n_nodes = 0, n_facets = 0;  ///< measured
-  std::int64_t n_beside = 0;               ///< facets compared with a normal beside a pole or tip, because the model has no normal at the pole or tip
+  std::int64_t n_nodes = 0, n_facets = 0;  ///< numbers of measured nodes and facets
+  std::int64_t n_beside = 0;               ///< facets at a pole or tip, where the model has no normal: they are compared with a normal beside it
   std::int64_t n_without = 0;              ///< facets not compared, because the model has no normal there
-  std::vector<std::string> unknown;        ///< wall patches of the mesh that `wall` does not have: not measured
+  std::vector<std::string> unknown;        ///< wall patches of the mesh that `wall` does not have; they are not measured
 };
 
 /// Measures the boundary faces of the mesh on patches that `wall` has by name. The triangles of `wall` serve only to find faces and start values: distances
@@ -32,15 +32,16 @@ Deviation measure_deviation(const HybridMesh& mesh, const TriMesh& wall, const M
 /// Measures all patches of a surface that `wall` has. The surface may be `wall` itself.
 Deviation measure_deviation(const TriMesh& surface, const TriMesh& wall, const ModelWall& model, const GateTable& limits, const RunContext& context);
 
-/// Returns distances of single points from the model behind a wall: to the exact faces within their borders and to the exact edges. Thread-safe.
+/// Returns distances of single points from the model that a wall was made of. They are measured to the exact faces within their borders and to the exact edges.
+/// Thread-safe.
 class ModelDistance {
  public:
   /// All arguments must outlive the object.
-  /// \pre as measure_deviation
+  /// \pre the same as for measure_deviation
   ModelDistance(const TriMesh& wall, const ModelWall& model, const RunContext& context);
   ~ModelDistance();
-  double operator()(const Point& p) const;            ///< m
-  TriangleId nearest_triangle(const Point& p) const;  ///< a triangle of the wall
+  double operator()(const Point& p) const;            ///< returns the distance in metres
+  TriangleId nearest_triangle(const Point& p) const;  ///< returns the nearest triangle of the wall
  private:
   struct Lookup;
   std::unique_ptr<const Lookup> lookup_;

@@ -37,7 +37,7 @@ TriangleVertices with(TriangleVertices triangle, VertexId old, VertexId now) {
 bool has(const TriangleVertices& triangle, VertexId v) { return std::find(triangle.begin(), triangle.end(), v) != triangle.end(); }
 
 bool split(const Surface& surface, const InnerEdge& edge, FaceMesh& mesh) {
-  // Another edge of these triangles may have been split before.
+  // Another edge of these triangles may already have been split.
   for (const std::size_t t : edge.triangles)
     if (!has(mesh.triangles[t], edge.a) || !has(mesh.triangles[t], edge.b)) return false;
   const Uv at = 0.5 * (mesh.uv[edge.a.index()] + mesh.uv[edge.b.index()]);
@@ -87,7 +87,7 @@ void measure_angles(FaceMesh& mesh) {
 std::size_t split_doubled_edges(const Model& model, const SurfaceMesh& joined, std::span<const TriangleId> wrong, Column<FaceId, MeshedFace>& faces) {
   std::set<FaceId> concerned;
   for (const TriangleId t : wrong) concerned.insert(joined.triangle_face[t]);
-  // Inner edges between border vertices, keyed by the model entities of these vertices.
+  // Inner edges between border vertices. The key holds the model entities of these vertices.
   std::map<Edge, std::vector<InnerEdge>> found;
   for (const FaceId f : concerned) {
     const MeshedFace& face = faces[f];

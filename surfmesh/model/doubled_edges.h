@@ -1,4 +1,4 @@
-// Edges that join the same two border vertices within two faces. At the tip of a body of two halves both faces cut off the last triangle alike, and
+// Edges that join the same two border vertices within two faces. At the tip of a body of two halves both faces cut off the last triangle in the same way, and
 // refinement does not change that.
 #pragma once
 
@@ -8,7 +8,7 @@
 
 namespace sterna::surfmesh {
 
-/// Splits each such edge at the middle of its (u, v) in all faces but the first, unless triangles would fold. \return number of splits
+/// Splits each such edge at the middle of its (u, v), in all faces except the first. An edge is not split if triangles would fold. \return number of splits
 std::size_t split_doubled_edges(const Model& model, const SurfaceMesh& joined, std::span<const TriangleId> wrong, Column<FaceId, MeshedFace>& faces);
 
 }  // namespace sterna::surfmesh

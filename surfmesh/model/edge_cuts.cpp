@@ -12,18 +12,18 @@
 namespace sterna::surfmesh {
 namespace {
 
-/// Largest turn of a segment, however short an edge is: a hole stays a hexagon.
+/// Largest turn of a segment, however short the edge is. A hole is therefore at least a hexagon.
 constexpr double k_largest_turn = std::numbers::pi / 3.0;
-/// Largest number of halvings of a sampling interval while its length is above the size there.
+/// Largest number of halvings of a sampling interval. Intervals are halved while they are longer than the size there.
 constexpr int k_max_halvings = 24;
 constexpr std::size_t k_closed_segments = 3;
 
 struct Station {
   double t = 0.0;
-  double metric = 0.0;  ///< length from the start, measured in sizes
+  double metric = 0.0;  ///< length from the start, in multiples of the local size
 };
 
-/// Integrates length / size along the edge, at stations close enough for the trapezoidal rule. `size_at`: metres, as a function of the parameter.
+/// Integrates length / size along the edge. The stations are close enough for the trapezoidal rule. `size_at` returns the size in metres for a parameter.
 template <class SizeAt>
 std::vector<Station> measure(const ModelEdge& edge, const EdgeSamples& samples, const SizeAt& size_at) {
   std::vector<Station> stations{{samples.samples.front().t, 0.0}};
@@ -60,7 +60,7 @@ std::vector<Station> measure(const ModelEdge& edge, const EdgeSamples& samples, 
   return stations;
 }
 
-/// Returns the samples between two parameters, with samples at both parameters.
+/// Returns the samples between two parameters, including samples at both parameters.
 EdgeSamples part_of(const ModelEdge& edge, const EdgeSamples& whole, double from, double to) {
   EdgeSamples part;
   part.samples.push_back({from, edge.curve->point(from), 0.0});
@@ -70,7 +70,7 @@ EdgeSamples part_of(const ModelEdge& edge, const EdgeSamples& whole, double from
   return part;
 }
 
-/// Returns the part with its own length and turning.
+/// Returns that part with its own length and turning angle.
 EdgeSamples measured_part_of(const ModelEdge& edge, const EdgeSamples& whole, double from, double to) {
   if (from == whole.samples.front().t && to == whole.samples.back().t) return whole;
   EdgeSamples part = part_of(edge, whole, from, to);
@@ -78,12 +78,12 @@ EdgeSamples measured_part_of(const ModelEdge& edge, const EdgeSamples& whole, do
   return part;
 }
 
-/// Returns the parameter between `from` and `end` whose point is `step` metres from that of `from`; `end` if there is none.
+/// Returns the parameter between `from` and `end` whose point is `step` metres from the point at `from`; returns `end` if there is none.
 double t_at_step(const Curve& curve, double from, double end, double step) {
   const Point start = curve.point(from);
   constexpr int k_halvings = 60, k_widenings = 40;
   double near = from, far = end;
-  // The first bracket is near the start, so that a curve that returns is not intersected behind its bend.
+  // The first bracket is near the start, so that a curve that turns back is not intersected behind its bend.
   double ahead = end - from;
   for (int i = 0; i < k_widenings && distance(curve.point(from + 0.5 * ahead), start) >= step; ++i) ahead *= 0.5;
   far = from + ahead;
@@ -95,11 +95,11 @@ double t_at_step(const Curve& curve, double from, double end, double step) {
   return 0.5 * (near + far);
 }
 
-/// Returns the locations where rows of a band meet an edge that leaves the band, from the corner on.
+/// Returns the locations where the rows of a band meet an edge that leaves the band, starting at the corner.
 std::vector<double> row_places(EdgeId e, const ModelEdge& edge, const EdgeSamples& samples, std::size_t end, const CrossingEnd& crossing,
                                const SurfaceSizes& field) {
-  constexpr double k_share_of_edge = 0.45;  // the other end may have rows, too
-  constexpr int k_step_iterations = 4;      // each iteration gains a digit or two: an edge turns little within a step
+  constexpr double k_share_of_edge = 0.45;  // less than half, because the other end may have rows, too
+  constexpr int k_step_iterations = 4;      // few steps suffice: the edge turns little within a step, so each iteration gains a digit or two
   const double start = end == 0 ? edge.range.from : edge.range.to, stop = end == 0 ? edge.range.to : edge.range.from;
   const double spacing = std::min(crossing.longest, field.on_edge(e, start));
   std::vector<double> places;
@@ -108,8 +108,8 @@ std::vector<double> row_places(EdgeId e, const ModelEdge& edge, const EdgeSample
     const CurveDerivatives d = edge.curve->derivatives(t);
     const double speed2 = norm2(d.first), curvature = speed2 > 0.0 ? norm(cross(d.first, d.second)) / (speed2 * std::sqrt(speed2)) : 0.0;
     height = crossing.law.next_height(height, std::isfinite(curvature) ? curvature : 0.0);
-    // Heights are measured across the rows, which run parallel to the band's edges. Steps along this edge are longer, depending on the chord of the step
-    // itself.
+    // Heights are measured across the rows, which run parallel to the edges of the band. Steps along this edge are longer than the height, depending on the
+    // direction of their chord.
     Vec3 chord = normalized(d.first);
     double step = height, next = t;
     for (int i = 0; i < k_step_iterations; ++i) {
@@ -174,7 +174,7 @@ EdgeCut cut_evenly(const ModelEdge& edge, const EdgeSamples& samples, std::size_
   return cut;
 }
 
-/// Adds the rows at both ends of a cut: the cut between them begins at the last row of each end.
+/// Adds the rows at both ends of a cut. The cut between them begins at the last row of each end.
 void add_rows(const ModelEdge& edge, const std::array<std::vector<double>, 2>& rows, EdgeCut& cut) {
   std::vector<double> t = rows[0];
   t.insert(t.end(), cut.t.begin(), cut.t.end());
@@ -207,15 +207,16 @@ EdgeCut cut_like(const EdgeSamples& own, const EdgeSamples& other, const EdgeCut
   return result;
 }
 
-/// Returns the number of segments for a length in sizes; band edges are rounded up to finer cuts.
+/// Returns the number of segments for a length measured in sizes. The number is rounded up for band edges, so that their segments are never too long.
 std::size_t segments_by_size(double metric, bool is_band) {
-  constexpr double k_whole = 0.02;  // fraction of a segment: rounding tolerance above a whole number
+  constexpr double k_whole = 0.02;  // fraction of a segment by which a length may exceed a whole number before it is rounded up
   return static_cast<std::size_t>(std::max(1.0, is_band ? std::ceil(metric - k_whole) : std::round(metric)));
 }
 
 std::size_t segments_by_turning(double turning) { return static_cast<std::size_t>(std::max(1.0, std::ceil(turning / k_largest_turn - 0.01))); }
 
-/// Cuts pieces that are images of each other. One of each kind is measured by the smallest of all sizes there and cut; its cuts are moved to the others.
+/// Cuts pieces that are images of each other. One piece of each kind is cut, with the smallest of all sizes on the pieces of that kind. Its cuts are moved to
+/// the others.
 class PeriodicCutter {
  public:
   PeriodicCutter(const Model& model, const Column<EdgeId, EdgeSamples>& edges, const ModelTopology& topology, const WingBands& bands, const PeriodicRims& rims,
@@ -247,7 +248,7 @@ class PeriodicCutter {
     for (std::size_t i = first; i < first + n; ++i) sum += n_[rims_.pieces[i].like];
     return sum;
   }
-  /// Requires at least two segments for each of its images.
+  /// Sets the minimum number of segments to two, for the edge and each of its images.
   void divide(EdgeId e) {
     for (std::size_t i = rims_.of_edge[e][0]; i < rims_.of_edge[e][0] + rims_.of_edge[e][1]; ++i)
       n_[rims_.pieces[i].like] = std::max<std::size_t>(n_[rims_.pieces[i].like], 2);
@@ -319,7 +320,7 @@ class PeriodicCutter {
   std::vector<EdgeSamples> samples_;
   std::vector<std::vector<Station>> stations_;
   std::vector<std::size_t> n_;
-  std::vector<std::size_t> n_even_;  ///< given number of equal segments, as for the end of a strip; 0: set by sizes
+  std::vector<std::size_t> n_even_;  ///< given number of equal segments, such as at the end of a strip; 0: sizes determine the number
 };
 
 }  // namespace
@@ -356,7 +357,7 @@ Column<EdgeId, EdgeCut> cut_edges(const Model& model, const Column<EdgeId, EdgeS
         n_segments[e] = std::max({by_size, by_turning, is_closed ? k_closed_segments : 1});
       },
       4);
-  // If several edges of one segment join the same corners, all but the shortest are divided.
+  // If several edges with a single segment join the same corners, all except the shortest are divided.
   struct Pair {
     CornerId a, b;
     double length;

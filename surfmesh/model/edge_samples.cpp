@@ -8,7 +8,7 @@
 namespace sterna::surfmesh {
 namespace {
 
-/// Sampling intervals of a piece between breaks, and lower and upper limit for an edge.
+/// Number of sampling intervals for a piece between breaks, and limits for the number of intervals of an edge.
 constexpr std::size_t k_per_piece = 8, k_least = 24, k_most = 800;
 
 EdgeSamples sample_edge(const ModelEdge& edge) {

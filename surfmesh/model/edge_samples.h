@@ -1,4 +1,4 @@
-// Model edges sampled as polylines, used to measure lengths, curvatures and distances, and to cut the edges.
+// Model edges sampled as polylines, which are used to measure lengths, curvatures and distances, and to cut the edges.
 #pragma once
 
 #include <vector>
@@ -14,9 +14,9 @@ struct EdgeSample {
   double curvature = 0.0;  ///< 1/m, curvature of the curve
 };
 struct EdgeSamples {
-  std::vector<EdgeSample> samples;  ///< both ends included; empty for degenerate edges
-  double length = 0.0;              ///< metres, of the polyline
-  double turning = 0.0;             ///< rad, sum of angles between its segments
+  std::vector<EdgeSample> samples;  ///< samples, both ends included; empty for degenerate edges
+  double length = 0.0;              ///< metres, length of the polyline
+  double turning = 0.0;             ///< rad, sum of the angles between consecutive segments
 };
 
 /// Sets length and turning from the polyline.

@@ -12,7 +12,7 @@ namespace {
 
 constexpr const char* k_estimate_attempt = "meshing the model's surface";
 constexpr std::size_t k_shown_faces = 5;
-/// Estimates may exceed the number of triangles by up to this factor if the mesh does not reach its target sizes.
+/// The mesh may have fewer triangles than estimated by up to this factor if it does not reach its target sizes.
 constexpr double k_surely = 1.5;
 
 std::string rounded(double n) {
@@ -49,7 +49,7 @@ void check_estimate(const Model& model, const ModelSizes& sizes, const Column<Ed
   double total = 0.0;
   for (const FaceId f : model.faces.ids()) {
     double n = estimated_triangles(sizes, f), cuts = 0.0;
-    // A face has at least as many triangles as border edges, minus two.
+    // A face has at least as many triangles as it has border edges, minus two.
     for (const Border& border : model.faces[f].borders)
       for (const EdgeUse& use : border) cuts += edges[use.edge].length / sizes.faces[f].max_edge;
     n = std::max(n, cuts);

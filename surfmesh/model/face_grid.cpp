@@ -7,25 +7,25 @@
 namespace sterna::surfmesh {
 namespace {
 
-/// Cells are at most this many times as long as the target edge: bilinear values are then within about 5 % of sizes that grow by 0.2.
+/// Largest length of a cell, relative to the target edge. Bilinear interpolation is then within about 5 % of sizes that grow by 0.2.
 constexpr double k_cell_sizes = 2.0;
-/// Relative to the largest size: sources above this are ignored.
+/// Sources larger than this fraction of the largest size are ignored.
 constexpr double k_level = 0.999;
 /// Node coordinates in a direction are multiples of 1 / 2^24 of the box.
 constexpr int k_levels = 24;
-/// Minimum number of halvings in each direction for a curved face, so that a cell whose ends meet is not taken as small.
+/// Smallest number of halvings in each direction for a curved face. Without it a cell whose ends meet would count as small.
 constexpr int k_least_levels = 3;
-/// Segments of the border per bin of the inside test.
+/// Number of border segments per bin of the inside test, and largest number of bins.
 constexpr std::size_t k_per_bin = 4, k_most_bins = 2048;
 
-/// Fraction of the distance to the box's middle: nodes on the border of the box are tested this far inside.
+/// Nodes on the border of the box are tested farther inside: they are moved by this fraction of the distance to the middle of the box.
 constexpr double k_grid_inwards = 1e-6;
 
 struct Segment {
   Uv a, b;
 };
 
-/// Inside test by parity of crossings, with segments sorted into bins of u.
+/// Tests if a point is inside by the parity of crossings. Segments are sorted into bins of u.
 class Inside {
  public:
   explicit Inside(std::span<const std::vector<Uv>> loops) {
@@ -93,7 +93,7 @@ class FaceGridBuilder {
     std::array<std::uint32_t, 4> corners;
   };
 
-  /// Nodes on the box's border must count as inside of polygons that run along it.
+  /// Moves a node on the border of the box inwards, so that it counts as inside of polygons that run along the border.
   Uv inwards(Uv at) const {
     const ParameterBox& box = grid_.box_;
     const auto moved = [](const Interval& range, double t) { return t + k_grid_inwards * (0.5 * (range.from + range.to) - t); };
@@ -114,7 +114,7 @@ class FaceGridBuilder {
     return it->second;
   }
 
-  /// Returns the cell that contains the square of the lattice with lower corner (u, v).
+  /// Returns the cell that contains the lattice square with the lower corner (u, v).
   std::uint32_t cell_of(std::uint32_t u, std::uint32_t v) const {
     std::uint32_t entry = grid_.tree_.front();
     std::uint32_t bit_u = 1u << (k_levels - 1), bit_v = bit_u;
@@ -153,7 +153,7 @@ class FaceGridBuilder {
     return !((a > 0.0 && b > 0.0 && c > 0.0 && d > 0.0) || (a < 0.0 && b < 0.0 && c < 0.0 && d < 0.0));
   }
 
-  /// Segments that may cross the cell are crossing_[first, first + count). Without any segment the cell is entirely inside or outside.
+  /// The segments that may cross the cell are crossing_[first, first + count). A cell without segments is entirely inside or outside.
   void divide(const Cell& cell, std::size_t first, std::size_t count, bool is_known_inside) {
     const auto& nodes = grid_.nodes_;
     const std::array<Point, 4> p{nodes[cell.corners[0]].point, nodes[cell.corners[1]].point, nodes[cell.corners[2]].point, nodes[cell.corners[3]].point};
@@ -219,7 +219,7 @@ class FaceGridBuilder {
   int least_levels_;
   std::unordered_map<std::uint64_t, std::uint32_t> node_of_;
   std::vector<std::uint8_t> is_needed_;
-  std::vector<std::array<std::uint32_t, 2>> lattice_;  ///< per node
+  std::vector<std::array<std::uint32_t, 2>> lattice_;  ///< lattice coordinates of each node
   std::vector<std::uint32_t> crossing_;
 };
 

@@ -6,12 +6,12 @@
 namespace sterna::surfmesh {
 namespace {
 
-/// Points of a use in its polygon; straight parameter curves need two.
+/// Number of polygon points of an edge use. Straight parameter curves need only two.
 constexpr int k_polygon_points = 24;
 
 const EdgeUse& use_at(const Model& model, const EdgeUsePlace& place) { return model.faces[place.face].borders[place.border][place.place]; }
 
-/// Returns the nearest multiple of the period to `jump`.
+/// Returns the whole number of periods nearest to `jump`, times the period.
 double whole_periods(double jump, double period) { return std::round(jump / period) * period; }
 
 bool is_inside(const std::vector<Uv>& polygon, Uv at) {
@@ -23,8 +23,8 @@ bool is_inside(const std::vector<Uv>& polygon, Uv at) {
   return inside;
 }
 
-/// Merges loops that run around the period into one polygon, there and back; a single loop is closed at the border of the domain on its left. The polygons of
-/// the merged loops become empty.
+/// Merges loops that run around the period into one polygon that runs there and back. A single loop is closed at the border of the domain on its left. The
+/// polygons of the other merged loops become empty.
 void close_around(const Surface& surface, const std::vector<Uv>& ends, FaceOutline& outline) {
   const std::size_t first = outline.winding.front();
   std::vector<Uv>& polygon = outline.polygons[first];
@@ -86,7 +86,7 @@ FaceOutline outline_of(const Model& model, FaceId id) {
     Uv end;
     for (std::uint32_t i = 0; i < face.borders[b].size(); ++i) {
       const EdgeUse& use = face.borders[b][i];
-      const Interval range = model.edges[use.edge].range;  // the curve's domain may be larger
+      const Interval range = model.edges[use.edge].range;  // the domain of the curve may be larger than the range of the edge
       const auto at = [&](double share) {
         return use.parameter->point(use.is_reversed ? range.to - share * range.length() : range.from + share * range.length());
       };

@@ -8,11 +8,11 @@
 namespace sterna::surfmesh {
 namespace {
 
-/// Pieces of a use: the same number as in the outline's polygon, which decides away from the border.
+/// Number of pieces of a use. It equals that of the polygon in the outline, which is used for the test away from the border.
 constexpr int k_pieces = 24;
-/// Within this many sags of a chord the curve itself decides: the sag is estimated from the middle alone.
+/// Points nearer to a chord than this many times its sag are tested with the curve itself, because the sag is estimated at the middle of the chord only.
 constexpr double k_near = 3.0;
-/// Newton steps from the chord's fraction: the curve is nearly straight there.
+/// Number of Newton steps. They start from the fraction of the chord, because the curve is nearly straight there.
 constexpr int k_steps = 6;
 
 double cross_of(Uv a, Uv b) { return a.u * b.v - a.v * b.u; }

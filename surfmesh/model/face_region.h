@@ -1,4 +1,4 @@
-// Test if a surface point belongs to a face: inside or outside of its borders, to the precision of the borders' own curves.
+// Tests if a surface point belongs to a face, that is, lies inside its borders, with the precision of the curves of the borders.
 #pragma once
 
 #include <vector>
@@ -12,7 +12,7 @@ class FaceRegion {
   /// `model` must outlive the region.
   FaceRegion(const Model& model, FaceId face);
 
-  /// Returns true if the point belongs to the face. On a periodic surface any period is accepted. Near the border the parameter curves decide, not their
+  /// Returns true if the point belongs to the face. On a periodic surface any period is accepted. Near the border the test uses the parameter curves, not their
   /// polygons.
   bool contains(Uv at) const;
 
@@ -20,8 +20,8 @@ class FaceRegion {
   /// Part of a border between two points of its polygon.
   struct Piece {
     Uv from, to;
-    double t_from, t_to;  ///< edge parameters; t_from > t_to where the border runs against the edge
-    double sag;           ///< sag of the curve over the chord, in (u, v)
+    double t_from, t_to;  ///< parameters of the edge; t_from > t_to if the border runs against the edge
+    double sag;           ///< in (u, v), largest distance of the curve from its chord
     std::uint32_t border, use;
   };
   bool contains_here(Uv at) const;
@@ -30,7 +30,7 @@ class FaceRegion {
   const Model* model_;
   FaceOutline outline_;
   std::vector<Piece> pieces_;
-  Uv period_;  ///< zero: not periodic
+  Uv period_;  ///< periods in u and v; zero: not periodic
 };
 
 }  // namespace sterna::surfmesh

@@ -69,7 +69,7 @@ SurfaceMesh join_faces(const Model& model, const ModelTopology& topology, const 
       result.is_band.push_back(t + face.mesh.n_band >= face.mesh.triangles.size() ? 1 : 0);
     }
   }
-  // Corners that only absorbed edges had, and further numbers of poles, belong to no triangle: they are removed.
+  // Corners that only absorbed edges had, and additional numbers of poles, belong to no triangle. They are removed.
   Column<VertexId, VertexId> number(mesh.points.size());
   for (const TriangleVertices& v : mesh.triangles)
     for (const VertexId w : v) number[w] = w;

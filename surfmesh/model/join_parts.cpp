@@ -55,7 +55,7 @@ void append_bands(const BandSummary& part, BandSummary& all) {
   all.notes.insert(all.notes.end(), part.notes.begin(), part.notes.end());
 }
 
-/// Appends a report; locations in `part` are already at their final positions.
+/// Appends a report. The locations in `part` are already final.
 void append_report(SurfaceMeshReport part, const Offsets& at, bool is_first, SurfaceMeshReport& all) {
   const auto excess = [](const SurfaceMeshReport& report, FaceId face, std::size_t shift) {
     return face.is_valid() ? report.faces[face.index() - shift].max_normal_angle - report.faces[face.index() - shift].curvature_angle : 0.0;

@@ -12,8 +12,8 @@
 namespace sterna::surfmesh {
 namespace {
 
-/// Each use contributes its start and its cuts; its end is the start of the next use. Absorbed edges contribute nothing. Poles contribute their corner at
-/// their start and, through the next use, at their end.
+/// Each use contributes its start and its cuts; its end is the start of the next use. Absorbed edges contribute nothing. A pole contributes its corner at its
+/// start and, as the start of the next use, at its end.
 LabelledBorder border_of(const Model& model, FaceId f, const ModelTopology& topology, const Column<EdgeId, EdgeCut>& cuts, const BorderVertices& numbers,
                          const FaceOutline& outline) {
   LabelledBorder result;
@@ -24,7 +24,7 @@ LabelledBorder border_of(const Model& model, FaceId f, const ModelTopology& topo
       const EdgeUse& use = model.faces[f].borders[entry.place.border][entry.place.place];
       const ModelEdge& edge = model.edges[use.edge];
       const Interval range = edge.range;
-      end = use.parameter->point(use.is_reversed ? range.from : range.to) + entry.shift;  // of absorbed edges as well: the last one may close a ring
+      end = use.parameter->point(use.is_reversed ? range.from : range.to) + entry.shift;  // also set for absorbed edges, because the last one may close a ring
       if (topology.is_point[use.edge] != 0 && !edge.is_degenerate()) continue;
       const CornerId corner = topology.corner[use.is_reversed ? edge.end : edge.start];
       loop.push_back({use.parameter->point(use.is_reversed ? range.to : range.from) + entry.shift, model.corners[corner].point});
@@ -49,7 +49,7 @@ LabelledBorder border_of(const Model& model, FaceId f, const ModelTopology& topo
 /// Returns the model's tolerance for the distance between an edge's vertices and its faces.
 double tolerance_of(const Model& model, FaceId f, EdgeId e) {
   const ModelEdge& edge = model.edges[e];
-  // Some files have tolerances of zero; deviations within double precision at that size are no fault.
+  // Some files have tolerances of zero. Deviations within double precision at that size are not reported.
   constexpr double k_rounding = 1e-12;
   double extent = 0.0;
   for (const Point& p : {model.corners[edge.start].point, model.corners[edge.end].point,
@@ -58,10 +58,11 @@ double tolerance_of(const Model& model, FaceId f, EdgeId e) {
   return std::max({edge.tolerance, model.corners[edge.start].tolerance, model.corners[edge.end].tolerance, model.faces[f].tolerance, k_rounding * extent});
 }
 
-/// Merges border points where a border passes a corner twice (a hole that touches the border), so that both have the same (u, v). In files they differ by
-/// rounding, and a gap of that width would be meshed. Of consecutive points there only the first stays. Poles and seams are far apart in (u, v).
+/// Merges border points where a border passes a corner twice (a hole that touches the border), so that both points have the same (u, v). In files they differ
+/// by rounding, and the mesher would mesh a gap of that width. If such points are consecutive, only the first one is kept. Points at poles and on seams are not
+/// merged, because they are far apart in (u, v).
 LabelledBorder merge_touching(const Model& model, FaceId f, const LabelledBorder& given) {
-  constexpr double k_near = 1e-5;  // of the border's extent in (u, v)
+  constexpr double k_near = 1e-5;  // fraction of the border's extent in (u, v)
   const Surface& surface = *model.faces[f].surface;
   ParameterBox box{{1e300, -1e300}, {1e300, -1e300}};
   for (const auto& loop : given.border.loops)
@@ -128,7 +129,7 @@ void measure_face(MeshedFace& face) {
   summary.max_angle = mesh.report.max_angle;
   summary.worst_place = mesh.report.worst_place;
   summary.n_outside_20_130 = mesh.report.n_outside_20_130;
-  // Compares cosines; only the largest angle is needed.
+  // Cosines are compared instead of angles, because only the largest angle is needed.
   const double allowed = std::cos(summary.curvature_angle);
   double least = 1.0;
   for (const TriangleVertices& v : mesh.triangles) {

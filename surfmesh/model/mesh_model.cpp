@@ -1,5 +1,5 @@
-// The driver. Faces that cannot be meshed, edges with more than two triangles and crossing triangles indicate edges that are too long for the geometry there.
-// Sizes are halved around such locations and the affected faces are re-meshed, a few times.
+// This is the driver. Edges that are too long for the geometry lead to faces that cannot be meshed, to edges with more than two triangles, or to crossing
+// triangles. Sizes are halved around such locations and the affected faces are re-meshed, a few times.
 #include <algorithm>
 #include <array>
 #include <cmath>
@@ -26,12 +26,12 @@ namespace sterna::surfmesh {
 namespace {
 
 constexpr const char* k_attempted = "meshing the model's surface";
-/// Rounds of meshing: each halves sizes at faults, so sizes are at 1/32 after the last round.
+/// Largest number of meshing rounds. Each round halves the sizes at faults, so sizes are at 1/32 of their start in the last round.
 constexpr int k_max_rounds = 6;
 constexpr double k_repair_factor = 0.5;
-/// A face that still fails in this round stays a hole if that is allowed: shorter edges around it seldom help, and they remain.
+/// A face that still fails in this round stays a hole if holes are allowed. Shorter edges around a hole seldom help, and they would stay in the mesh.
 constexpr int k_rounds_before_holes = 2;
-/// Above this angle volume_mesh does not take a feature angle from the mesh.
+/// If the mesh turns by more than this angle, volume_mesh does not derive its feature angle from the mesh.
 constexpr double k_largest_smooth_turn = std::numbers::pi / 3.0;
 constexpr int k_digits = 4;  ///< digits of numbers in messages
 
@@ -45,7 +45,7 @@ struct Meshing : SizedModel {
   std::set<FaceId> to_mesh;
 };
 
-// Fractions of the time, measured on the widebody of 1.5 M triangles.
+// Progress fractions at the ends of the stages, measured on the widebody with 1.5 M triangles.
 constexpr double k_prepared = 0.15, k_first_round = 0.75, k_first_judged = 0.9;
 
 /// Reports the progress as a fraction of the expected triangles of the faces.
@@ -68,7 +68,7 @@ class FaceProgress {
   std::mutex mutex_;
 };
 
-/// Cuts edges again and meshes the faces whose edges changed, and those marked for re-meshing.
+/// Cuts edges again. Meshes the faces whose edges changed and the faces that are marked for re-meshing.
 SurfaceMesh mesh_round(Meshing& meshing, const SurfaceSizes& field, const RunContext& context) {
   const Model& model = meshing.model;
   Column<EdgeId, EdgeCut> cuts = cut_edges(model, meshing.edges, meshing.topology, meshing.bands, meshing.rims, field, context);
@@ -91,7 +91,7 @@ SurfaceMesh mesh_round(Meshing& meshing, const SurfaceSizes& field, const RunCon
         progress.done(i);
       },
       1);
-  // The remaining faces get new numbers for their border vertices.
+  // The faces that are not re-meshed get new numbers for their border vertices.
   for (const FaceId f : model.faces.ids())
     if (!std::binary_search(work.begin(), work.end(), f))
       meshing.faces[f].border_ids = border_ids(model, f, meshing.topology, meshing.cuts, numbers, meshing.sizes.outlines[f]);
@@ -99,7 +99,7 @@ SurfaceMesh mesh_round(Meshing& meshing, const SurfaceSizes& field, const RunCon
   return join_faces(model, meshing.topology, meshing.cuts, numbers, meshing.faces);
 }
 
-/// Returns the sizes of a round, equal on periodic borders: a requirement on one border also applies to its images.
+/// Returns the sizes of a round. They are equal on periodic borders: a requirement on one border also applies to its images.
 SurfaceSizes sizes_of_round(const Meshing& meshing, const RunContext& context) {
   SurfaceSizes field(meshing.model, meshing.edges, meshing.topology, meshing.sizes, meshing.repairs, context);
   if (meshing.rims.empty()) return field;
@@ -134,14 +134,14 @@ void refine_at(Meshing& meshing, FaceId f, const Point& place, double size, doub
   throw Error(std::move(info));
 }
 
-/// Halves the sizes where faces failed. \return true if any did
+/// Halves the sizes where faces failed. \return true if any face failed
 bool refine_failures(Meshing& meshing, const SurfaceSizes& field) {
   bool is_any = false;
   for (const FaceId f : meshing.model.faces.ids()) {
     const MeshedFace& face = meshing.faces[f];
     if (!face.failure) continue;
     is_any = true;
-    if (face.failure->code == ErrorCode::overflow) throw_failures(meshing);  // finer edges would make it worse
+    if (face.failure->code == ErrorCode::overflow) throw_failures(meshing);  // finer edges would increase the number of triangles further
     const double cap = meshing.sizes.faces[f].max_edge;
     const auto size_at = [&](const Point& p) { return std::min(cap, field.least_near(p)); };
     for (const ErrorPlace& place : face.failure->places) refine_at(meshing, f, place.position, size_at(place.position));
@@ -217,7 +217,7 @@ void check_options(const SurfaceMeshOptions& options) {
   SurfaceMeshOptions copy = options;
   for (const Option& option : options_of(copy))
     if (option.kind != OptionKind::number || option.automatic.empty() || !is_automatic(std::get<double>(option.get()))) set_option(option, option.get());
-  if (options.min_edge > options.max_edge)  // false where either is automatic
+  if (options.min_edge > options.max_edge)  // the comparison is false if either value is automatic
     throw Error(
         {.code = ErrorCode::bad_argument,
          .attempted = k_attempted,
@@ -328,7 +328,7 @@ std::string to_text(const SurfaceMeshReport& report) {
     text += "; " + std::to_string(report.loose_edges.size()) + " edges exceed their tolerance, first: " + number(loose.distance) + " m instead of " +
             number(loose.tolerance) + " m beside \"" + report.faces[loose.face.index()].name + "\" at " + format_point(loose.place);
   }
-  constexpr double k_flat = 1e-6;  // rad: negligible
+  constexpr double k_flat = 1e-6;  // rad: smaller angles are negligible
   if (report.max_smooth_angle > k_flat)
     text += "; smooth regions turn by up to " + number(report.max_smooth_angle / k_degree) + " degrees per edge, at " + format_point(report.smooth_angle_place);
   if (!report.absorbed.empty())

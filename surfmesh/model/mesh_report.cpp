@@ -9,7 +9,7 @@
 namespace sterna::surfmesh {
 namespace {
 
-constexpr double k_angle_class = 10.0 * std::numbers::pi / 180.0;  ///< bin width of SurfaceMeshReport::least_angles
+constexpr double k_angle_class = 10.0 * std::numbers::pi / 180.0;  ///< bin width of the histogram SurfaceMeshReport::least_angles
 
 }  // namespace
 
@@ -56,7 +56,7 @@ void measure_triangles(SurfaceMesh& mesh) {
     const double angle = std::min({corner_angle(p[0], p[1], p[2]), corner_angle(p[1], p[2], p[0]), corner_angle(p[2], p[0], p[1])});
     least.push_back(static_cast<float>(angle));
     ++report.least_angles[std::min(report.least_angles.size() - 1, static_cast<std::size_t>(angle / k_angle_class))];
-    // 2 r / R = 16 A^2 / (a b c (a + b + c))
+    // The radius ratio is 2 r / R = 16 A^2 / (a b c (a + b + c)).
     const double a = distance(p[1], p[2]), b = distance(p[2], p[0]), c = distance(p[0], p[1]), twice = norm(cross(p[1] - p[0], p[2] - p[0]));
     twice_area += twice;
     if (twice > 0.0) report.mean_radius_ratio += twice * 4.0 * twice * twice / (a * b * c * (a + b + c));

@@ -12,16 +12,16 @@
 namespace sterna::surfmesh {
 namespace {
 
-/// Largest number of halvings of an edge: 512 pieces.
+/// Largest number of halvings of an edge, which gives 512 pieces.
 constexpr int k_most_halvings = 9;
-/// Number of pieces in which every edge is tested: a wave may pass through the middle of its chord.
+/// Every edge is tested in at least this many pieces, because a wave may pass through the middle of its chord.
 constexpr int k_first_pieces = 4;
-/// Largest number of rows of a face's grid in one direction, and of lines along which its curvature is sampled.
+/// Largest number of rows of a face's grid in one direction. Also the largest number of lines along which the curvature of the face is sampled.
 constexpr std::size_t k_most_rows = 256;
 constexpr int k_curvature_lines = 5;
-/// Pieces of the degenerate edge at a pole.
+/// Number of pieces of the degenerate edge at a pole.
 constexpr int k_pole_pieces = 16;
-/// Small entities are drawn to a fraction of their own size, not of the model's.
+/// Small entities are drawn with a tolerance of this fraction of their own size, not of the size of the model.
 constexpr double k_own_tolerance = 4e-3;
 constexpr double k_least_share = 1e-2;  ///< relative to the model's tolerance: smaller deviations are not visible
 
@@ -91,7 +91,7 @@ struct FacetLoop {
   std::vector<Point> points;
 };
 
-/// Returns the outline's own polygons if a border runs around a period, else the edges' points.
+/// Returns the polygons of the outline if a border runs around a period, else polygons of the edge points.
 std::vector<FacetLoop> loops_of(const Model& model, FaceId f, const FaceOutline& outline, const Column<EdgeId, EdgePoints>& edges) {
   const Surface& surface = *model.faces[f].surface;
   std::vector<FacetLoop> loops;
@@ -118,7 +118,7 @@ std::vector<FacetLoop> loops_of(const Model& model, FaceId f, const FaceOutline&
         continue;
       }
       const EdgePoints& cut = edges[use.edge];
-      for (std::size_t k = 0; k + 1 < cut.t.size(); ++k) {  // the end is the start of the next edge
+      for (std::size_t k = 0; k + 1 < cut.t.size(); ++k) {  // the end point is not added, because it is the start of the next edge
         const std::size_t i = use.is_reversed ? cut.t.size() - 1 - k : k;
         loop.uv.push_back(parameters_at(model, entry, cut.t[i]));
         loop.points.push_back(cut.points[i]);
@@ -140,7 +140,8 @@ ParameterBox box_around(const std::vector<FacetLoop>& loops) {
   return box;
 }
 
-/// Returns the number of pieces of equal parameter along u (or v), a power of two, so that a line of the surface is within the tolerance of its chords.
+/// Returns the number of pieces of equal parameter length along u (or v). It is a power of two, large enough that the chords of a line of the surface are
+/// within the tolerance.
 std::size_t rows_along(const Surface& surface, const ParameterBox& box, bool is_u, double tolerance) {
   const auto place = [&](double along, double across) {
     const Uv at{is_u ? along : across, is_u ? across : along};
@@ -201,7 +202,7 @@ void triangulate(const std::vector<FacetLoop>& loops, const ParameterBox& box, s
     for (std::size_t j = 1; j < n_v; ++j)
       facets.uv.push_back({box.u.from + box.u.length() * static_cast<double>(i) / static_cast<double>(n_u),
                            box.v.from + box.v.length() * static_cast<double>(j) / static_cast<double>(n_v)});
-  // Long cells are as acceptable as square ones here: the plane is scaled so that cells are squares.
+  // Long cells are as acceptable as square ones here. The plane is scaled so that cells are squares.
   const auto scale = [](std::size_t n, double length) { return length > 0.0 ? static_cast<double>(n) / length : 1.0; };
   const Vec2 by{scale(n_u, box.u.length()), scale(n_v, box.v.length())};
   std::vector<Vec2> plane;
@@ -282,7 +283,7 @@ ModelFacets facets_of(const Model& model, const FacetOptions& options, const Run
         const ModelEdge& edge = model.edges[EdgeId(i)];
         EdgePoints& cut = edges[EdgeId(i)] = cut_edge(edge, tolerance);
         if (cut.points.empty()) return;
-        // Edges that meet have bitwise the same point there.
+        // Edges that meet have bitwise the same point where they meet.
         cut.points.front() = model.corners[edge.start].point;
         cut.points.back() = model.corners[edge.end].point;
       },

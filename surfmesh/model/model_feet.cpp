@@ -1,4 +1,4 @@
-// ModelWall: nearest locations on single faces, trimmed, with normals.
+// ModelWall: nearest locations on single trimmed faces, with normals.
 #include <algorithm>
 #include <cmath>
 
@@ -7,11 +7,11 @@
 namespace sterna::surfmesh {
 namespace {
 
-/// Ratio of |du x dv| to the product of the lengths below which the direction of the normal is dominated by rounding.
+/// Lower limit for the ratio of |du x dv| to the product of both lengths. Below the limit rounding dominates the direction of the normal.
 constexpr double k_least_sine = 1e-8;
-/// Length of du or dv relative to the larger one below which the parameters have no direction there: at poles.
+/// Lower limit for the length of du or dv, relative to the larger one. Below the limit, at poles, the parameter has no direction.
 constexpr double k_least_speed = 1e-9;
-/// Fractions of the face's parameter box at which a normal is searched beside a pole.
+/// Distances from a pole at which a normal is searched, as fractions of the face's parameter box.
 constexpr std::array<double, 3> k_beside = {1e-6, 1e-4, 1e-2};
 
 std::optional<Vec3> normal_there(const Surface& surface, Uv at) {
@@ -67,7 +67,7 @@ ModelFoot ModelWall::foot(const Point& p, TriangleId triangle, const std::array<
     if (places.size() == 1) middle = middle + weights[k] * places.front();
     else is_plain = false;
   }
-  if (is_plain) try_seed(middle);  // across a seam the middle lies elsewhere and is no nearer
+  if (is_plain) try_seed(middle);  // beyond a seam the middle lies elsewhere and is no nearer
   const SurfaceFoot found = seed ? projector.seeded(p, *seed) : projector.nearest(p);
   ModelFoot foot{.face = f, .at = found.at, .point = found.point, .distance = found.distance};
   if (!(is_inner(triangle, v[0]) && is_inner(triangle, v[1]) && is_inner(triangle, v[2]))) foot.is_inside = region_of(known, f).contains(found.at);
@@ -111,7 +111,7 @@ std::optional<ModelNormal> ModelWall::normal(FaceId id, Uv at) const {
   const ParameterBox box = face.surface->domain();
   const Uv middle{0.5 * (box.u.from + box.u.to), 0.5 * (box.v.from + box.v.to)};
   for (const double share : k_beside) {
-    // One parameter at a time: along a pole the other one is undetermined, and the location would rotate around the pole.
+    // Each parameter is moved separately. Along a pole the other parameter is undetermined, and the location would rotate around the pole.
     const double du = share * box.u.length() * (at.u < middle.u ? 1.0 : -1.0), dv = share * box.v.length() * (at.v < middle.v ? 1.0 : -1.0);
     for (const Uv beside : {Uv{at.u, at.v + dv}, Uv{at.u + du, at.v}})
       if (const std::optional<Vec3> n = normal_there(*face.surface, beside)) return ModelNormal{side * *n, true};

@@ -19,21 +19,22 @@ namespace {
 constexpr double k_of_circumference = 0.08;
 constexpr double k_of_chord = 0.15;
 constexpr double k_of_longest_side = 0.02;
-/// Relative to the square root of a face's area.
+/// Automatic longest edge, relative to the square root of a face's area.
 constexpr double k_of_face = 0.25;
 constexpr double k_min_of_max = 0.02;
-/// Relative to the model's longest side: lower limits of automatic longest and shortest edges. Else tip faces of nearly zero size would require edges of zero
-/// length.
+/// Lower limits of the automatic longest and shortest edges, relative to the model's longest side. Without them tip faces of nearly zero size would require
+/// edges of zero length.
 constexpr double k_least_max_edge = 1e-4, k_least_min_edge = 1e-5;
-/// Relative to the longest edge of a face: lower limit of sizes from narrow regions while min_edge is automatic. A strip a millionth as wide as it is long
-/// would require millions.
+/// Lower limit of the sizes from narrow regions while min_edge is automatic, relative to the longest edge of a face. Without it a strip a millionth as wide as
+/// it is long would require millions of edges.
 constexpr double k_least_narrow = 1e-4;
-/// Rad: beyond about 45 degrees between triangles the layers treat a smooth region as a ridge; edges exceed their size by a third.
+/// Rad: if triangles turn by more than about 45 degrees, the layers treat a smooth region as a ridge. Edges exceed their size by a third, hence 30 degrees.
 constexpr double k_most_turn = 30.0 * std::numbers::pi / 180.0;
-/// Relative to the automatic min_edge: lower limit of its reduction, since pointed tips and thin round trailing edges would require most of all triangles.
+/// Lower limit for the reduction of the automatic min_edge, as a fraction of it. Without the limit, pointed tips and thin round trailing edges would contain
+/// most of all triangles.
 constexpr double k_least_of_min = 0.5;
-/// The same on wings. Their min_edge is derived from the mean chord, and the nose radius of thin tapered wings at the tip is below half of that. Longer edges
-/// would turn by 80 degrees along a leading edge, which is a line and no spot.
+/// The same limit on wings. The min_edge of a wing follows from its mean chord, and the nose radius at the tip of a thin tapered wing is less than half of it.
+/// Longer edges would turn by 80 degrees along the whole leading edge.
 constexpr double k_least_of_min_on_wings = 0.25;
 
 double longest_side(const Box& box) { return box.empty() ? 0.0 : box.longest_side(); }
@@ -55,7 +56,7 @@ double default_max_edge(const Component& component, const ComponentMeasures& m) 
     case ComponentKind::sting: return k_of_circumference * m.area / longest;
     case ComponentKind::wing:
     case ComponentKind::pylon: {
-      // The planform has half of the wetted area; the span is the longer side across the flow.
+      // The planform area is half of the wetted area. The span is the longer side across the flow.
       const double span = std::max(size.y, size.z);
       return k_of_chord * std::min(0.5 * m.area / std::max(span, 1e-12), longest);
     }
@@ -88,7 +89,7 @@ Column<ComponentId, double> default_sizes(const Model& model, const ModelSizes& 
   return result;
 }
 
-/// Returns the change of size per distance. Meshes of a family are similar: where sizes grow from a fine region, they grow slower in the finer mesh.
+/// Returns the change of size per distance. Meshes of a family are similar: in a finer mesh sizes grow more slowly with the distance from a fine region.
 double change_by_distance(const SurfaceMeshOptions& options) { return (options.growth - 1.0) / options.refinement; }
 
 void resolve_bands(const std::string& name, const SurfaceMeshOptions& options, std::span<const PatchSurfaceOptions> patches, FaceSizes& sizes) {
@@ -107,9 +108,9 @@ bool is_min_edge_given(const std::string& name, const SurfaceMeshOptions& option
   });
 }
 
-/// Checks chord errors if no min_edge is given: the automatic min_edge would limit a chord error that is far too small, and the mesh would silently differ
+/// Checks chord errors if no min_edge is given. If a chord error is far too small, the automatic min_edge would limit it, and the mesh would silently differ
 /// from the request.
-/// \throws Error(overflow) if the request needs more than max_triangles \post curvature sizes are computed for this check only
+/// \throws Error(overflow) if the request needs more than max_triangles \post the computed curvature sizes served this check only
 void require_chord_error_in_reach(const Model& model, const SurfaceMeshOptions& options, std::span<const PatchSurfaceOptions> patches, ModelSizes& sizes) {
   double n = 0.0, least = std::numeric_limits<double>::infinity();
   for (const FaceId f : model.faces.ids()) {
@@ -131,7 +132,7 @@ FaceSizes resolve(const std::string& name, double automatic_max, double automati
                   std::span<const PatchSurfaceOptions> patches) {
   double max_edge = options.max_edge, min_edge = options.min_edge, angle = options.curvature_angle, error = options.chord_error;
   double leading = options.leading_edge_factor, trailing = options.trailing_edge_factor;
-  // The last matching rule with a value counts.
+  // The last matching rule that has a value is used.
   for (const PatchSurfaceOptions& rule : patches) {
     if (!matches_glob(name, rule.names)) continue;
     if (!is_automatic(rule.max_edge)) max_edge = rule.max_edge;
@@ -148,7 +149,7 @@ FaceSizes resolve(const std::string& name, double automatic_max, double automati
   sizes.max_edge = is_automatic(max_edge) ? automatic_max : max_edge;
   sizes.limits.min_edge = std::min(sizes.max_edge, is_automatic(min_edge) ? std::max(k_min_of_max * sizes.max_edge, automatic_least) : min_edge);
   sizes.least_narrow = is_automatic(min_edge) ? std::min(sizes.max_edge, automatic_least) / options.refinement : 0.0;
-  // An automatic min_edge must not limit a chord error, and must not cause sharp turns of the mesh where the model is smooth.
+  // An automatic min_edge must not limit a chord error. It must not cause sharp turns of the mesh where the model is smooth.
   if (is_automatic(min_edge)) {
     sizes.limits.most_turn = std::max(angle, k_most_turn);
     sizes.limits.least_edge = std::max(least_of_min * sizes.limits.min_edge, std::min(sizes.max_edge, automatic_least));
@@ -158,15 +159,15 @@ FaceSizes resolve(const std::string& name, double automatic_max, double automati
   sizes.limits.angle = angle;
   if (!is_automatic(error)) sizes.limits.chord_error = error;
   sizes.max_edge /= options.refinement;
-  // The automatic lower limit for sharp turns is not enlarged in coarse members: round tips that are smooth in member 1 stay smooth.
+  // The automatic lower limit for sharp turns is not enlarged in coarse members of a family. Round tips that are smooth in member 1 stay smooth.
   sizes.limits.least_edge /= is_automatic(min_edge) ? std::max(options.refinement, 1.0) : options.refinement;
   for (double* edge : {&sizes.limits.min_edge, &sizes.limits.error_edge}) *edge /= options.refinement;
   sizes.limits.angle /= options.refinement;
   // The error of a chord is proportional to the square of its length.
   sizes.limits.chord_error /= options.refinement * options.refinement;
-  sizes.limits.growth = std::numeric_limits<double>::infinity();  // SurfaceSizes propagates them
+  sizes.limits.growth = std::numeric_limits<double>::infinity();  // SurfaceSizes limits the growth when it propagates the sizes
   resolve_bands(name, options, patches, sizes);
-  // A band determines the sizes at its edge; the factor would only shorten its cells along the edge.
+  // A band determines the sizes at its edge. The factor would only shorten the cells of the band along the edge.
   if (sizes.leading.is_any()) sizes.leading_factor = 1.0;
   if (sizes.trailing.is_any()) sizes.trailing_factor = 1.0;
   return sizes;
@@ -207,12 +208,13 @@ struct NarrowPlace {
   double size = 0.0;
 };
 
-/// Adds narrow regions: where two edges of a face run near to each other, edges must not be longer than the width of the face there. Near a corner shared by
-/// both edges this applies only if they are nearer than k_narrow_corner of the distance from the corner: triangles fill wider corners without refinement.
+/// Adds narrow regions. Where two edges of a face run near each other, edges must not be longer than the width of the face between them. Near a corner that
+/// both edges share, this applies only if their distance is less than k_narrow_corner times the distance from the corner: triangles fill wider corners without
+/// refinement.
 void add_narrow_places(const Model& model, FaceId f, const Column<EdgeId, EdgeSamples>& edges, const FaceSizes& sizes, double narrow,
                        std::vector<NarrowPlace>& places) {
   constexpr double k_narrow_corner = 0.35;
-  constexpr double k_at_corner = 1e-6;  // relative to the edge's length: the corner itself has no distance to the other edge
+  constexpr double k_at_corner = 1e-6;  // relative to the length of the edge; at the corner itself the distance to the other edge is zero
   constexpr double k_least_of_min_edge = 0.2;
   const double reach = sizes.max_edge / narrow;
   std::vector<EdgeId> used;
@@ -249,8 +251,8 @@ void add_narrow_places(const Model& model, FaceId f, const Column<EdgeId, EdgeSa
     }
 }
 
-/// Returns the sizes required at an edge's samples: by its own curvature, the curvature of adjacent faces, its length where that is short, and the smaller
-/// size of its faces.
+/// Returns the sizes required at the samples of an edge. They follow from the curvature of the edge and of the adjacent faces, from the length of a short edge,
+/// and from the smaller size of its faces.
 std::vector<double> sizes_along(const Model& model, const std::vector<EdgeUsePlace>& uses, const EdgeSamples& samples, const ModelSizes& sizes,
                                 double intersection_factor) {
   double least = sizes.largest;
@@ -276,8 +278,8 @@ std::vector<double> sizes_along(const Model& model, const std::vector<EdgeUsePla
   return result;
 }
 
-/// Adds sources at the samples and, where these are farther apart than the sizes, between them: else lengths would grow from sample to sample and shrink
-/// again.
+/// Adds sources at the samples. If two samples are farther apart than the sizes, sources are added between them: otherwise lengths would grow from one sample
+/// and shrink towards the next.
 void add_sources_along(const Curve& curve, const std::vector<EdgeSample>& samples, const std::vector<double>& size, std::vector<SizeSite>& sources) {
   constexpr double k_most_between = 4096.0;
   for (std::size_t i = 0; i < samples.size(); ++i) {
@@ -321,7 +323,7 @@ ModelSizes sizes_of_faces(const Model& model, const Column<EdgeId, EdgeSamples>&
     const ModelFace& face = model.faces[f];
     std::unique_ptr<CurvatureSizes> curvature = std::move(sizes.faces[f].curvature);
     double by_default = face.component.is_valid() ? automatic[face.component] : of_model;
-    // In a component of unknown kind only the faces indicate which regions are large and which are small: a farfield and a wing may be one part.
+    // In a component of unknown kind only the faces show which regions are large and which are small, because a farfield and a wing may be one part.
     const bool is_unknown = !face.component.is_valid() || model.components[face.component].kind == ComponentKind::unknown;
     const double length = of_model / k_of_longest_side;
     if (const double side = std::sqrt(curvature->area()); is_unknown && side > 0.0)

@@ -7,7 +7,7 @@
 namespace sterna::surfmesh {
 namespace {
 
-/// Entities smaller than this fraction of the shortest target edge are absorbed: a mesh of such edges cannot resolve them.
+/// Entities smaller than this fraction of the shortest target edge are absorbed, because a mesh with such edges cannot resolve them.
 constexpr double k_shortest = 0.05;
 
 CornerId find(Column<CornerId, CornerId>& stands_for, CornerId c) {
@@ -76,8 +76,8 @@ double distance_of(const EdgeSamples& a, const EdgeSamples& b, double limit) {
   return largest;
 }
 
-/// Absorbs faces that are a line or a point: every edge is traversed in both directions, and there is no area between (a seam's face has both directions too,
-/// but has an area).
+/// Absorbs faces that are a line or a point. Every edge of such a face is traversed in both directions, and the face has no area. (A face with a seam also
+/// traverses the seam in both directions, but has an area.)
 void absorb_lines(const Model& model, const Column<EdgeId, EdgeSamples>& edges, const Column<EdgeId, std::vector<EdgeUsePlace>>& uses, const ModelSizes& sizes,
                   ModelTopology& topology, std::vector<AbsorbedPart>& absorbed) {
   for (const FaceId f : model.faces.ids()) {

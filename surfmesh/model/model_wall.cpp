@@ -94,7 +94,7 @@ Point ModelWall::nearest(const Point& p, TriangleId triangle, const std::array<d
     const Interval range{std::min(segment->t_low, segment->t_high), std::max(segment->t_low, segment->t_high)};
     return CurveProjector(known.model.edges[segment->edge].curve, range).seeded(p, segment->t_low + share * (segment->t_high - segment->t_low)).point;
   }
-  // A corner with a known (u, v) on this face is a start value; of several the one nearest to the point.
+  // A corner with a known (u, v) on this face is used as start value. If there are several, the corner nearest to the point is used.
   const FaceId f = places_.triangle_face[triangle];
   double best = 0.0;
   Uv seed{};

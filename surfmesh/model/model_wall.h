@@ -1,4 +1,4 @@
-// The model behind a surface mesh: returns the exact model location of points on its triangles. Later splits of the wall put new vertices there.
+// The model of a surface mesh. Returns the exact location on the model for points on triangles. Later splits of the wall put new vertices there.
 #pragma once
 
 #include <array>
@@ -33,13 +33,13 @@ struct ModelFoot {
   Uv at;
   Point point;
   double distance = std::numeric_limits<double>::infinity();  ///< m
-  bool is_inside = true;                                      ///< inside the face's border or on it; false: on the surface, but beyond the border
+  bool is_inside = true;                                      ///< inside the face's border or on it; false: on the surface of the face, but outside its border
 };
 
 /// The outward normal of a face.
 struct ModelNormal {
   Vec3 normal;             ///< unit
-  bool is_beside = false;  ///< the surface has no normal there (pole, tip): taken from a location close by
+  bool is_beside = false;  ///< the surface has no normal there (pole, tip); the normal comes from a location close by
 };
 
 class ModelWall {
@@ -47,10 +47,11 @@ class ModelWall {
   /// Keeps copies of all data it needs.
   /// \pre `mesh` is a mesh of this model
   ModelWall(Model model, const SurfaceMesh& mesh);
-  /// Defers the making of the model until it is first needed, which is seldom. The thread that needs it first makes it while others wait.
+  /// Defers the construction of the model until it is first needed, which is seldom. The first thread that needs the model constructs it while other threads
+  /// wait.
   ModelWall(std::function<Model()> model, WallPlaces places, Column<TriangleId, TriangleVertices> triangles);
 
-  /// Returns the same wall at another location.
+  /// Creates the same wall at another location.
   /// \pre `motion` is a rotation and a shift
   ModelWall(const ModelWall& other, const Transform& motion);
 
@@ -58,17 +59,17 @@ class ModelWall {
   /// point lies on that edge, else on the face's surface. Thread-safe. \p weights barycentric, not negative
   Point nearest(const Point& p, TriangleId triangle, const std::array<double, 3>& weights) const;
 
-  /// Returns the nearest point on the surface of the triangle's face, searched near the triangle, and reports if the point belongs to the face. Thread-safe.
-  /// \p weights barycentric coordinates on the triangle
+  /// Returns the nearest point on the surface of the triangle's face, searched near the triangle, and whether the point belongs to the face. Thread-safe. \p
+  /// weights barycentric coordinates on the triangle
   ModelFoot foot(const Point& p, TriangleId triangle, const std::array<double, 3>& weights) const;
-  /// Returns the nearest point on the model edge segment of the triangle's side opposite to corner `k`, as a location on the triangle's face; nothing for a
-  /// side inside the face. Thread-safe.
+  /// Returns the nearest point on the model edge along the side of the triangle opposite to corner `k`, as a location on the triangle's face. Returns nothing
+  /// if this side lies inside the face. Thread-safe.
   std::optional<ModelFoot> edge_foot(const Point& p, TriangleId triangle, std::size_t k) const;
   /// Returns true if a vertex is inside the triangle's face, not on its border.
   bool is_inner(TriangleId triangle, VertexId v) const;
   /// Returns the location of the vertex on the model: on its edge if it has one, else on its face; nothing if unknown. Thread-safe.
   std::optional<Point> place_of(VertexId v) const;
-  /// Returns nothing if the surface has no normal there and close by. Thread-safe.
+  /// Returns nothing if the surface has no normal at this location or close to it. Thread-safe.
   std::optional<ModelNormal> normal(FaceId face, Uv at) const;
   /// Returns the face's name for messages.
   /// \pre foot.face is valid
@@ -84,30 +85,30 @@ class ModelWall {
     EdgeId edge;
     double t_low = 0.0, t_high = 0.0;
   };
-  /// Created when a face is first queried: most faces never are.
+  /// Created at the first query of a face, because most faces are never queried.
   struct LazyProjector {
     std::once_flag once;
     std::unique_ptr<const SurfaceProjector> made;
   };
-  /// Needed for only a few walls.
+  /// Created on demand, because few walls need it.
   struct LazyRegion {
     std::once_flag once;
     std::unique_ptr<const FaceRegion> made;
   };
   struct Knowledge {
     Model model;
-    std::vector<Segment> segments;  ///< by low and high
+    std::vector<Segment> segments;  ///< sorted by low, then high
     std::vector<LazyProjector> projectors;
     std::vector<LazyRegion> regions;
     Column<EdgeId, std::vector<EdgeUsePlace>> uses;
-    Column<VertexId, CornerId> corner_of;  ///< invalid: not on a corner of the model
+    Column<VertexId, CornerId> corner_of;  ///< invalid: the vertex is not on a corner of the model
   };
   Knowledge& knowledge() const;
   std::vector<Segment> find_segments(const Model& model) const;
   static const Segment* segment_of(const Knowledge& known, VertexId a, VertexId b);
   static const SurfaceProjector& projector_of(Knowledge& known, FaceId f);
   static const FaceRegion& region_of(Knowledge& known, FaceId f);
-  /// Returns the possible (u, v) of the vertex in the face: several on a seam; none for a corner without data for this face.
+  /// Returns the possible (u, v) of the vertex in the face: several on a seam, none for a corner without data for this face.
   std::vector<Uv> places_in(const Knowledge& known, FaceId f, VertexId v) const;
 
   std::function<Model()> model_;

@@ -10,11 +10,11 @@
 namespace sterna::surfmesh {
 namespace {
 
-/// Relative to the greater of du and dv: a surface with a smaller speed along its period has a pole there.
+/// Relative to the greater of du and dv: a surface has a pole where its speed along the period is smaller than this.
 constexpr double k_pole_speed = 1e-6;
 /// Number of locations along a seam at which sizes are evaluated.
 constexpr std::size_t k_seam_samples = 128;
-/// Largest number of seam starts that are tried.
+/// Largest number of locations at which a start of the seam is tried.
 constexpr std::size_t k_most_starts = 64;
 
 [[noreturn]] void fail(const Surface& surface, const std::string& problem, const Point& place) {
@@ -29,7 +29,7 @@ struct Loop {
   std::vector<BorderPoint> points;
   std::vector<VertexId> ids;
   std::vector<EdgeId> edges;
-  Uv around;  ///< whole periods from the start to the end; zero if the loop closes
+  Uv around;  ///< whole periods between the start and the end of the loop; zero if the loop closes
 };
 
 bool do_cross(Uv a, Uv b, Uv c, Uv d) {
@@ -37,7 +37,7 @@ bool do_cross(Uv a, Uv b, Uv c, Uv d) {
   return side(a, b, c) * side(a, b, d) <= 0 && side(c, d, a) * side(c, d, b) <= 0;
 }
 
-/// Returns true if a straight seam touches no loop, in any period, other than at its own ends.
+/// Returns true if a straight seam touches no loop in any period, except at its own ends.
 bool is_clear(Uv from, Uv to, const std::vector<Loop>& loops, Uv period) {
   for (const Loop& loop : loops)
     for (std::size_t i = 0; i < loop.points.size(); ++i) {
@@ -52,7 +52,8 @@ bool is_clear(Uv from, Uv to, const std::vector<Loop>& loops, Uv period) {
   return true;
 }
 
-/// Returns the loop starting at its i-th point, with that point repeated at the end: n + 1 points, around or back a period.
+/// Returns the points of the loop from the `start`-th on, moved by `shift`. The first point is repeated at the end, moved by the period around which the loop
+/// runs, so there are n + 1 points.
 Loop unrolled(const Loop& loop, std::size_t start, Uv shift) {
   Loop result;
   const std::size_t n = loop.points.size();
@@ -67,7 +68,7 @@ Loop unrolled(const Loop& loop, std::size_t start, Uv shift) {
   return result;
 }
 
-/// Returns locations between the ends of a seam, at equal lengths measured in sizes.
+/// Returns locations between the ends of a seam. Their distances are equal when measured in sizes.
 std::vector<Uv> cut_seam(const Surface& surface, const std::function<double(Uv, const Point&)>& size, Uv from, Uv to) {
   std::vector<double> metric{0.0};
   Point before = surface.point(from);
@@ -99,8 +100,8 @@ bool is_inside(const std::vector<BorderPoint>& polygon, Uv at) {
 }
 
 struct Seam {
-  std::size_t start = 0;        ///< on the first loop
-  std::size_t other_start = 0;  ///< on the second, if there is one
+  std::size_t start = 0;        ///< position of the start on the first loop
+  std::size_t other_start = 0;  ///< position of the end on the second loop, if there is one
   Uv from, to;
 };
 
@@ -158,7 +159,7 @@ void add_own_seam(const Surface& surface, const std::function<double(Uv, const P
   if (around.size() > 2 || (period.u != 0.0 && period.v != 0.0))
     fail(surface, "the borders run around the face " + std::to_string(around.size()) + " times, or around both periods of the surface", place);
   if (second != nullptr && !(second->around + period == Uv{})) fail(surface, "two borders run around the period of the surface in the same direction", place);
-  // The face lies to the left: of +u at greater v, of +v at smaller u.
+  // The face lies to the left of the loop: at greater v of a loop along +u, at smaller u of a loop along +v.
   const ParameterBox domain = surface.domain();
   const double pole = period.u != 0.0 ? (period.u > 0.0 ? domain.v.to : domain.v.from) : (period.v > 0.0 ? domain.u.from : domain.u.to);
   if (second == nullptr) {
@@ -222,7 +223,7 @@ void free_own_seam(LabelledBorder& labelled, FaceMesh& mesh) {
   Column<VertexId, VertexId> same_as(mesh.points.size());
   for (const VertexId v : same_as.ids()) same_as[v] = v;
   for (const auto& [kept, gone] : labelled.seam) same_as[VertexId(gone)] = VertexId(kept);
-  // The model's border points in their order, then the seam's, then the inner ones.
+  // First the border points of the model in their order, then those of the seam, then the inner vertices.
   std::vector<VertexId> order;
   LabelledBorder left;
   for (std::uint32_t i = 0; i < mesh.n_border; ++i) {

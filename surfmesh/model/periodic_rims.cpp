@@ -1,5 +1,5 @@
-// Steps: rim_of each side; find_translation; align_absorbed_corners; add_stops until all borders have those of their images; cut_into_pieces; link each piece
-// with its image; collect linked pieces into kinds.
+// Steps: rim_of finds the border of each side; find_translation; align_absorbed_corners; add_stops, repeated until every border has the stops of its images;
+// cut_into_pieces. Then each piece is linked with its image, and linked pieces are collected into kinds.
 #include "surfmesh/model/periodic_rims.h"
 
 #include <algorithm>
@@ -33,12 +33,12 @@ struct RimFoot {
 
 struct Side {
   std::string name;
-  std::vector<EdgeId> edges;  ///< ascending
+  std::vector<EdgeId> edges;  ///< edges in ascending order
 };
 
 struct Sides {
   std::array<Side, 2> side;
-  Vec3 translation;  ///< from the first to the second
+  Vec3 translation;  ///< from the first side to the second
 };
 
 class RimFinder {
@@ -55,7 +55,7 @@ class RimFinder {
     rims_.of_edge.resize(model_.edges.size());
     for (const SidePair& names : pairs) pairs_.push_back(sides_of(names));
     for (const Sides& pair : pairs_) align_absorbed_corners(pair);
-    // A stop on one border may be the image of an image of a corner: with two pairs in two directions this takes two rounds.
+    // The loop repeats because a stop may be the image of an image of a corner. With two pairs in two directions it takes two rounds.
     for (bool is_any = true; is_any;) {
       is_any = false;
       for (const Sides& pair : pairs_)
@@ -106,7 +106,7 @@ class RimFinder {
     return sides;
   }
 
-  /// Returns the edges between a face of that name and another face, or none.
+  /// Returns the edges between a face with this name and other faces; empty if there are none.
   Side rim_of(const std::string& name) {
     std::map<EdgeId, int> n_uses;
     for (const FaceId f : model_.faces.ids()) {
@@ -127,7 +127,7 @@ class RimFinder {
     return side;
   }
 
-  /// Returns the free edges in the plane with this name in volume_mesh, which closes the plane by a patch; none for other names.
+  /// Returns the free edges in the plane that volume_mesh gives this name and closes by a patch; empty for other names.
   Side free_rim_of(const std::string& name) const {
     Side side{name, {}};
     for (std::size_t axis = 0; axis < 3; ++axis)
@@ -149,7 +149,7 @@ class RimFinder {
   }
 
   RimFoot foot_on(const Side& side, const Point& p) const {
-    // Edges are selected by the distance to their polylines; those within reach are measured by their curves.
+    // Edges are first selected by the distance to their polylines. Distances to the selected edges are measured to their curves.
     RimFoot best;
     std::vector<std::pair<double, EdgeId>> near;
     for (const EdgeId e : side.edges) {
@@ -159,7 +159,7 @@ class RimFinder {
         nearest = std::min(nearest, distance_to_segment(p, s[k].point, s[k + 1].point));
         longest = std::max(longest, distance(s[k].point, s[k + 1].point));
       }
-      near.emplace_back(std::max(0.0, nearest - longest), e);  // the curve is nowhere farther from its chord than this length
+      near.emplace_back(std::max(0.0, nearest - longest), e);  // the curve is nowhere farther from its chord than the longest chord
     }
     std::ranges::sort(near);
     for (const auto& [bound, e] : near) {
@@ -183,8 +183,8 @@ class RimFinder {
     return v;
   }
 
-  /// Computes the translation from the boxes. If it is not accurate enough, because circles were sampled at other locations, it is corrected by the distances
-  /// across the borders.
+  /// Computes the translation from the boxes. The boxes are not accurate enough if circles were sampled at other locations. In that case the translation is
+  /// corrected by the distances across the borders.
   void find_translation(Sides& sides) {
     const Box here = box_of(sides.side[0]), there = box_of(sides.side[1]);
     sides.translation = without_rounding(0.5 * (there.min - here.min) + 0.5 * (there.max - here.max));
@@ -206,7 +206,8 @@ class RimFinder {
     return largest;
   }
 
-  /// Returns the least-squares solution for the distances across the second border when the first one is moved: the matrix is the sum of (I - t t^T).
+  /// Returns the correction of the translation as the least-squares solution for the remaining distances across the second border. The matrix is the sum of (I
+  /// - t t^T).
   Vec3 correction(const Sides& sides) const {
     std::array<Vec3, 3> matrix{};
     Vec3 right;
@@ -261,7 +262,7 @@ class RimFinder {
     return corners;
   }
 
-  /// Aligns corners merged by short edges: those on the second side must be the images of those on the first.
+  /// Aligns the corners that short edges merged: remaining corners on the second side must be the images of those on the first side.
   void align_absorbed_corners(const Sides& sides) {
     const std::set<CornerId> here = corners_of(sides.side[0]), there = corners_of(sides.side[1]);
     for (const CornerId c : here) {
@@ -436,9 +437,9 @@ double nearest_parameter(const ModelEdge& edge, const EdgeSamples& samples, cons
     low = std::max(range.from, from - (to - from));
     high = std::min(range.to, to + (to - from));
   }
-  // Newton on (c - p) . c', limited to the neighbours of the nearest chord.
+  // Newton's method for (c - p) . c' = 0, limited to the neighbours of the nearest chord.
   constexpr int k_steps = 30;
-  constexpr double k_still = 1e-15;  // relative to the range
+  constexpr double k_still = 1e-15;  // relative to the range: a smaller step ends the iteration
   for (int i = 0; i < k_steps; ++i) {
     const CurveDerivatives d = edge.curve->derivatives(t);
     const Vec3 off = d.point - p;
@@ -465,7 +466,7 @@ double image_parameter(const PeriodicRims& rims, std::size_t piece, double t, co
 }
 
 std::vector<SizeSite> sizes_of_partners(const PeriodicRims& rims, const Model& model, const Column<EdgeId, EdgeSamples>& edges, const SurfaceSizes& field) {
-  constexpr double k_equal = 0.98;  // relative to the own size: smallest sizes above this require no source
+  constexpr double k_equal = 0.98;  // relative to the size of the piece: a smallest size above this requires no source
   constexpr double k_most_between = 512.0;
   std::vector<SizeSite> sites;
   for (const std::vector<std::size_t>& kind : rims.kinds) {

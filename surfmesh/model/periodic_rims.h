@@ -1,4 +1,5 @@
-// Periodic pairs of flat model sides, one being the translated image of the other. Their border edges are matched piece by piece so that both are cut alike.
+// Periodic pairs of flat sides of a model. One side is the translated image of the other. The border edges of both sides are matched piece by piece so that
+// both are cut in the same way.
 #pragma once
 
 #include <array>
@@ -21,7 +22,8 @@ using SidePair = std::array<std::string, 2>;
 std::vector<SidePair> side_pairs(std::string_view text);
 std::string side_pairs_text(std::span<const SidePair> pairs);
 
-/// Returns "symmetry_y_min" and the like: volume_mesh's name of the plane of a wall's open ends if the other end of that axis has such a plane, too.
+/// Returns a name such as "symmetry_y_min". volume_mesh gives this name to the plane that closes the open end of a wall if the other end of that axis has such
+/// a plane, too.
 std::string open_plane_name(std::size_t axis, bool is_max);
 bool is_open_plane(std::string_view name);
 
@@ -35,7 +37,7 @@ struct RimStop {
 struct RimPiece {
   EdgeId edge;
   Interval range;            ///< range of the edge's parameter
-  std::size_t like = 0;      ///< number of the piece whose translated cuts it takes; its own number for the first piece of each kind
+  std::size_t like = 0;      ///< number of the piece whose cuts, translated, this piece takes; for the first piece of each kind its own number
   Vec3 translation;          ///< m, from that piece to this one
   bool is_reversed = false;  ///< its parameter runs against that of the other piece
 };
@@ -43,9 +45,9 @@ struct RimPiece {
 /// Borders of all pairs. Pieces of an edge are consecutive in `pieces`, ascending.
 struct PeriodicRims {
   std::vector<RimPiece> pieces;
-  Column<EdgeId, std::vector<RimStop>> stops;          ///< ascending, between the pieces of an edge
+  Column<EdgeId, std::vector<RimStop>> stops;          ///< stops between the pieces of an edge, ascending
   Column<EdgeId, std::array<std::size_t, 2>> of_edge;  ///< first piece and number of pieces; zero for edges on no border
-  std::vector<std::vector<std::size_t>> kinds;         ///< pieces that are cut alike, ascending, at least two
+  std::vector<std::vector<std::size_t>> kinds;         ///< for each kind the pieces that are cut alike, ascending, at least two
 
   bool empty() const { return pieces.empty(); }
 };
@@ -53,10 +55,10 @@ struct PeriodicRims {
 /// Largest distance of borders from their images as a fraction of the model's box, the same limit as in volume_mesh.
 inline constexpr double k_rim_tolerance = 1e-6;
 
-/// Finds the borders of the sides: all edges that a side shares with other faces, or the free edges in a plane (open_plane_name). The translation of a pair
-/// is computed from its borders. Where corners were absorbed into one, the image's corner is the image of the remaining one.
-/// \throws Error(bad_argument) for names that no face has (lists the existing names), for a side in several pairs, and for borders that are not each other's
-/// image (with locations and distances)
+/// Finds the borders of the sides: all edges that a side shares with other faces, or the free edges in a plane (open_plane_name). The translation of a pair is
+/// computed from its borders. If several corners were absorbed into one, the corner of the image is the image of the remaining corner.
+/// \throws Error(bad_argument) for names that no face has (the message lists the existing names), for a side in several pairs, and for borders that are not
+/// images of each other (with locations and distances)
 PeriodicRims find_periodic_rims(const Model& model, const Column<EdgeId, EdgeSamples>& edges, std::span<const SidePair> pairs, ModelTopology& topology);
 
 /// Returns the parameter within `range` at which the edge is nearest to p.
@@ -67,7 +69,7 @@ double image_parameter(const PeriodicRims& rims, std::size_t piece, double t, co
 
 class SurfaceSizes;
 
-/// Returns sources at locations of borders where an image has a smaller size: with them the next SurfaceSizes is equal on all images.
+/// Returns sources at locations of borders where an image has a smaller size. The next SurfaceSizes is then equal on all images.
 std::vector<SizeSite> sizes_of_partners(const PeriodicRims& rims, const Model& model, const Column<EdgeId, EdgeSamples>& edges, const SurfaceSizes& field);
 
 }  // namespace sterna::surfmesh

@@ -11,12 +11,12 @@
 namespace sterna::surfmesh {
 namespace {
 
-/// Strips beside tips, in fractions of the span, and their factors (docs/method/surface.md, "Factors on wings").
+/// Strips beside tips: their widths as fractions of the span, and their factors (docs/method/surface.md, "Factors on wings").
 struct Strip {
   double width, factor;
 };
 constexpr std::array<Strip, 2> k_strips{{{0.03, 0.4}, {0.06, 0.6}}};
-/// Number of segments for an edge's samples: leading edges bend little.
+/// Number of segments for the samples of an edge; few are needed, because leading edges bend little.
 constexpr std::size_t k_lines_of_edge = 8;
 /// Cosine between the normals of two faces above which their edge is smooth.
 constexpr double k_smooth_cosine = 0.5;
@@ -27,7 +27,7 @@ double distance_to(const std::vector<WingFactors::Line>& lines, const Point& p) 
   return nearest;
 }
 
-/// Returns 0 at 0 and 1 from 1 on, twice differentiable.
+/// Smooth step: 0 at 0, and 1 from 1 on; twice differentiable.
 double quintic(double t) { return t >= 1.0 ? 1.0 : t * t * t * (10.0 - 15.0 * t + 6.0 * t * t); }
 
 void add_lines(const EdgeSamples& edge, std::vector<WingFactors::Line>& lines) {
@@ -51,7 +51,7 @@ double WingFactors::operator()(const Point& p, double leading_factor, double tra
   double factor = 1.0;
   if (!leading.empty() && !trailing.empty() && (leading_factor != 1.0 || trailing_factor != 1.0)) {
     const double to_leading = distance_to(leading, p), to_trailing = distance_to(trailing, p);
-    // Fraction of the chord; a quarter of the perimeter is half of the chord.
+    // Fraction of the chord. A quarter of the perimeter of the section is half of the chord.
     const double share = to_leading + to_trailing > 0.0 ? to_leading / (to_leading + to_trailing) : 0.0;
     factor = std::min(leading_factor + (1.0 - leading_factor) * quintic(2.0 * share), trailing_factor + (1.0 - trailing_factor) * quintic(2.0 * (1.0 - share)));
   }
@@ -83,7 +83,7 @@ Column<ComponentId, std::shared_ptr<WingFactors>> find_wings(const Model& model,
       const ComponentId c = model.faces[place.face].component;
       if (!c.is_valid() || !wings[c]) continue;
       for (const EdgeSample& s : edges[e].samples) boxes[c].add(s.point);
-      // Only faces of another role make the edge the border of a tip or a base.
+      // An edge is the border of a tip or a base only if the face on its other side has another role.
       const bool is_border =
           std::any_of(uses[e].begin(), uses[e].end(), [&](const EdgeUsePlace& other) { return is_skin(other) && model.faces[other.face].component == c; });
       if (is_border && role_of(place) == FaceRole::tip) add_lines(edges[e], wings[c]->tips);

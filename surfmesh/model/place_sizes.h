@@ -1,4 +1,4 @@
-// Sizes required at locations of a model apart from curvature and edges: at leading and trailing edges of wings, tips, gaps, and user sources.
+// Sizes required at locations of a model for reasons other than curvature and edges: leading and trailing edges of wings, tips, gaps, and user sources.
 #pragma once
 
 #include <array>
@@ -15,8 +15,8 @@ namespace sterna::surfmesh {
 struct ModelSizes;
 struct SpaceSizes;
 
-/// Factors of the largest edge over a wing (docs/method/surface.md, "Factors on wings"): at its leading and trailing edges, blending to one over a quarter of
-/// the perimeter of the section, and in strips beside its tips.
+/// Factors of the largest edge on a wing (docs/method/surface.md, "Factors on wings"). One factor applies at its leading and trailing edges and blends to one
+/// over a quarter of the perimeter of the section. Others apply in strips beside its tips.
 class WingFactors {
  public:
   struct Line {
@@ -28,14 +28,14 @@ class WingFactors {
   double operator()(const Point& p, double leading_factor, double trailing_factor, bool has_strips) const;
 };
 
-/// Finds the wings and pylons of a model, by component; empty for other components. Leading edges are smooth edges between an upper and a lower face or, of
-/// two sharp ones, the one with the smaller x. Trailing edges are the other one and the borders of bases.
+/// Finds the wings and pylons of a model. The entries of other components are empty. Leading edges are smooth edges between an upper and a lower face; of two
+/// sharp edges the leading edge is the one with the smaller x. Trailing edges are the other sharp edge and the borders of bases.
 Column<ComponentId, std::shared_ptr<WingFactors>> find_wings(const Model& model, const Column<EdgeId, EdgeSamples>& edges);
 
 class PlaceSizes {
  public:
   PlaceSizes() = default;
-  /// \pre sizes.faces resolved
+  /// \pre sizes.faces are resolved
   PlaceSizes(const Model& model, const Column<EdgeId, EdgeSamples>& edges, const ModelSizes& sizes, const SpaceSizes& asked, double refinement);
   /// Adds sources that apply to this face only.
   /// \pre the face has no sources yet
@@ -45,7 +45,7 @@ class PlaceSizes {
   double operator()(FaceId f, const Point& p) const;
   /// Returns true if no size on the face within `reach` is below its largest edge.
   bool is_level_within(FaceId f, const Point& p, double reach) const;
-  /// Returns true if a user function is set, which only the starting thread may call.
+  /// Returns true if a user function is set. Only the thread that started the run may call such a function.
   bool is_serial() const { return static_cast<bool>(function_); }
 
  private:

@@ -11,18 +11,18 @@
 namespace sterna::surfmesh {
 namespace {
 
-/// Faces face each other if their normals are opposite within 30 degrees: the sides of a wider groove are not a gap.
+/// Two faces face each other if their normals are opposite within 30 degrees. The sides of a wider groove do not form a gap.
 constexpr double k_facing_cosine = 0.866;
-/// Relative to the length of a ray: nearer hits are the curved surface itself.
+/// Relative to the length of a ray: nearer hits are ignored, because they are the curved surface itself.
 constexpr double k_start = 1e-6;
 
 struct NearFacet {
   std::array<Point, 3> p;
-  Vec3 normal;  ///< outwards
+  Vec3 normal;  ///< normal, outwards
   FaceId face;
 };
 
-/// Returns triangles of the cells with their corners inside the border; of cells cut by the border, the half inside.
+/// Returns the triangles of cells whose corners are inside the border. A cell that the border cuts contributes the half that is inside.
 std::vector<NearFacet> facets_of(const Model& model, const SurfaceSizes& field) {
   std::vector<NearFacet> facets;
   for (const FaceId f : model.faces.ids()) {
@@ -42,7 +42,7 @@ std::vector<NearFacet> facets_of(const Model& model, const SurfaceSizes& field) 
   return facets;
 }
 
-/// Returns the length along `way` (unit) from p to a facet, within `reach`.
+/// Returns the length along the unit direction `way` from p to a facet, if it is at most `reach`.
 std::optional<double> hit(const Point& p, const Vec3& way, double reach, const NearFacet& facet) {
   const double across = dot(way, facet.normal);
   if (across == 0.0) return std::nullopt;
@@ -59,7 +59,7 @@ std::optional<double> hit(const Point& p, const Vec3& way, double reach, const N
   return t;
 }
 
-/// Adds sources of the same size all over a facet, spaced by about that size.
+/// Adds sources of the same size at points all over a facet, spaced by about that size.
 void add_over(const NearFacet& facet, const SizeSite& source, std::vector<SizeSite>& sources) {
   constexpr double k_most = 32.0;
   const double longest = std::max({distance(facet.p[0], facet.p[1]), distance(facet.p[1], facet.p[2]), distance(facet.p[2], facet.p[0])});
@@ -85,7 +85,7 @@ void add_gap_sources(const Model& model, const SurfaceSizes& field, const Surfac
     SizeSite own, opposite;
   };
   std::vector<std::vector<Found>> found(facets.size());
-  // The size required by a gap is share * width: gaps wider than this fraction of the largest edge are ignored.
+  // The size required by a gap is share * width. Gaps are ignored if that size exceeds the largest edge.
   const double share_of_gap = options.gap_cells > 0.0 ? 1.0 / (options.gap_cells * options.refinement) : 0.0;
   const double share_of_part = is_automatic(options.thickness_factor) ? 0.0 : options.thickness_factor / options.refinement;
   parallel_for(

@@ -15,8 +15,8 @@ namespace sterna::surfmesh {
 namespace {
 
 constexpr int k_digits = 3;                 ///< digits of distances in messages
-constexpr std::size_t k_sample_chunk = 32;  ///< triangles: a sample takes 5 to 50 us
-/// Smallest number of triangles at which distances are measured; if there are more, every second, third ... is measured.
+constexpr std::size_t k_sample_chunk = 32;  ///< triangles per chunk; a sample takes 5 to 50 us
+/// Distances are measured at no fewer than this number of triangles. If there are more, every second, third etc. triangle is measured.
 constexpr std::size_t k_sampled = 20'000;
 
 using Corners = std::array<std::uint32_t, 3>;
@@ -27,7 +27,7 @@ Corners sorted_corners(const TriangleVertices& v) {
   return c;
 }
 
-/// Returns for each point of `to` the lowest point of `from` with the same coordinates; invalid: none.
+/// Returns for each point of `to` the lowest point of `from` with the same coordinates; invalid if there is none.
 Column<VertexId, VertexId> same_points(const TriMesh& to, const TriMesh& from, const RunContext& context) {
   const auto less = [](const Point& a, const Point& b) { return std::tuple(a.x, a.y, a.z) < std::tuple(b.x, b.y, b.z); };
   std::vector<VertexId> order;
@@ -98,7 +98,7 @@ ReplacedFaces find_replaced_faces(const ModelWall& model, const TriMesh& made, c
         };
         look(middle);
         for (const VertexId v : repaired.triangles[fresh[i]])
-          if (!same[v].is_valid()) look(repaired.points[v]);  // the others are points of the model
+          if (!same[v].is_valid()) look(repaired.points[v]);  // points that are the same in both are points of the model and need no test
       },
       k_sample_chunk);
 

@@ -11,21 +11,21 @@
 
 namespace sterna::surfmesh {
 
-/// A face that has triangles its mesher did not make, or fewer than it made.
+/// A face whose triangles include some that its mesher did not make, or that has lost triangles.
 struct ReplacedFace {
   FaceId face;
   std::string name;
   std::int64_t n_before = 0;  ///< triangles that its mesher made
-  std::int64_t n_gone = 0;    ///< number of these that are gone
-  std::int64_t n_new = 0;     ///< triangles made instead, counted at the nearest face
-  double distance = 0.0;      ///< m, from the model: largest over the new triangles' middles and new corners (sampled beyond 20 000); fillings of holes lie
-                              ///< off the model
-  Point place{};              ///< location of this distance
+  std::int64_t n_gone = 0;    ///< number of these triangles that are gone
+  std::int64_t n_new = 0;     ///< triangles made instead; each is counted at the nearest face
+  double distance = 0.0;  ///< m: largest distance from the model of the middles and new corners of the new triangles (sampled if there are more than 20 000);
+                          ///< fillings of holes do not lie on the model
+  Point place{};          ///< location of this distance
 };
 
 struct ReplacedFaces {
-  std::vector<ReplacedFace> faces;  ///< by falling distance, then by face
-  std::int64_t n_exact = 0;         ///< unchanged triangles: their three corners are those of a triangle of the mesher, to the last bit
+  std::vector<ReplacedFace> faces;  ///< sorted by falling distance, then by face
+  std::int64_t n_exact = 0;         ///< unchanged triangles: their three corners are bitwise those of a triangle of the mesher
 };
 
 /// Finds the replaced faces. Parallel; the result does not depend on the number of threads.

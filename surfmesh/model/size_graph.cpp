@@ -7,15 +7,16 @@
 namespace sterna::surfmesh {
 namespace {
 
-/// Sine of the angle between a straight path and the surface at its end, above which the path no longer counts as a path along the surface: an arc with that
+/// Sine of the angle between a straight path and the surface at its end. Paths with a larger sine do not count as paths along the surface. An arc with this
 /// angle at both ends is 0.7 % longer than its chord.
 constexpr double k_plain_sine = 0.2;
-/// A path may deviate by 60 degrees from its straight line at a node: the grid has a neighbour within 35 degrees of every direction.
+/// A path may deviate by 60 degrees from its straight line at a node. Less would suffice, because the grid has a neighbour within 35 degrees of every
+/// direction.
 constexpr double k_forward_cosine = 0.5;
 /// Relative to a size: smaller gains do not justify another round.
 constexpr double k_least_gain = 1e-9;
 
-/// Source of a node's size.
+/// Location from which the size of a node comes.
 struct Origin {
   Point point;
   double size = 0.0;
@@ -25,7 +26,7 @@ struct Carrier {
   SizeGraph& graph;
   double growth;
   std::vector<Origin> origins;
-  std::vector<std::uint32_t> node_ends, node_cells;  ///< cells of each node
+  std::vector<std::uint32_t> node_ends, node_cells;  ///< cells that contain each node
 
   Carrier(SizeGraph& g, double change) : graph(g), growth(change) {
     for (std::size_t i = 0; i < g.points.size(); ++i) origins.push_back({g.points[i], g.sizes[i]});
@@ -34,13 +35,13 @@ struct Carrier {
     std::uint32_t sum = 0;
     for (std::uint32_t& end : node_ends) end = sum += end;
     node_cells.resize(sum);
-    // Filled from the back, so that the ends become starts; they are moved back afterwards.
+    // The list is filled from the back, so that the ends become starts. They are moved back afterwards.
     for (std::size_t c = g.cell_ends.size(); c-- > 0;)
       for (std::uint32_t k = g.cell_ends[c]; k-- > begin_of(c);) node_cells[--node_ends[g.cell_nodes[k]]] = static_cast<std::uint32_t>(c);
   }
   std::uint32_t begin_of(std::size_t cell) const { return cell == 0 ? 0 : graph.cell_ends[cell - 1]; }
 
-  /// Requires that node_ends holds the starts.
+  /// \pre node_ends holds the starts.
   template <class Visit>
   void for_neighbours(std::uint32_t node, const Visit& visit) const {
     const std::uint32_t end = node + 1 < node_ends.size() ? node_ends[node + 1] : static_cast<std::uint32_t>(node_cells.size());
@@ -60,7 +61,7 @@ struct Carrier {
   }
   /// Propagates the size of `from`; returns true if the size of `to` is reduced.
   bool relax(std::uint32_t from, std::uint32_t to) {
-    // No path from here is shorter than the gain of the straight step allows.
+    // The straight step cannot gain more than this, so longer paths from here are not tested.
     const double most = graph.sizes[to] * (1.0 - k_least_gain);
     if (graph.sizes[from] >= most) return false;
     const Vec3 ray = graph.points[to] - origins[from].point;

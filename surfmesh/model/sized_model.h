@@ -1,4 +1,4 @@
-// A model with the sizes at the start of its meshing, shared by mesh_model() and forecast_surface().
+// A model with the sizes at the start of its meshing. mesh_model() and forecast_surface() share it.
 #pragma once
 
 #include <span>
@@ -13,7 +13,7 @@ struct SizedModel {
   const SurfaceMeshOptions& options;
   Column<EdgeId, EdgeSamples> edges;
   ModelSizes sizes;
-  ModelTopology topology;  ///< empty until small parts are absorbed (absorb_small_parts)
+  ModelTopology topology;  ///< empty until small parts have been absorbed (absorb_small_parts)
 };
 
 /// Samples the edges and computes the sizes required by options, curvature and locations.
@@ -23,7 +23,7 @@ SizedModel sized_model(const Model& model, const SurfaceMeshOptions& options, st
                        const RunContext& context);
 
 /// Adds the sizes of narrow regions and, if requested, of gaps.
-/// \pre small parts are absorbed
+/// \pre small parts have been absorbed
 void add_narrow_places(SizedModel& sized, const WingBands* bands, const RunContext& context);
 
 }  // namespace sterna::surfmesh

@@ -1,6 +1,6 @@
-// Each face measures its inner edges and lists its border edges with the exact normals at their ends. The lists are sorted together, and edges of two
-// triangles whose normals agree on both sides are measured as well. Edges with a large turn are joined to groups, and spots are separated from the other
-// groups.
+// Each face measures its inner edges, and lists its border edges with the exact normals at their ends. The lists of all faces are sorted together. An edge of
+// two triangles is measured as well if the normals of both faces agree there. Edges with a large turn are joined to groups, and spots are separated from the
+// other groups.
 #include "surfmesh/model/smooth_angle.h"
 
 #include <algorithm>
@@ -15,32 +15,33 @@
 namespace sterna::surfmesh {
 namespace {
 
-/// Faces that join at less than this angle have no crease: CAD systems treat faces as tangent within about a degree, fitted surfaces deviate by a few.
+/// Faces that join at less than this angle have no crease. CAD systems treat faces as tangent within about one degree; fitted surfaces deviate by a few
+/// degrees.
 constexpr double k_tangent = 5.0 * std::numbers::pi / 180.0;
 
-/// Edges that turn by more than this are grouped with their neighbours: from about this angle on, layers treat a smooth region as a ridge.
+/// Edges that turn by more than this are grouped with their neighbours. From about this angle on, layers treat a smooth region as a ridge.
 constexpr double k_sharp = 45.0 * std::numbers::pi / 180.0;
-/// Relative to the longest edge of a group: groups that do not extend farther are spots. A cone of half angle a is thinner than its edges are long over 1 /
-/// tan(a) edges from its point; over 21 edges where the round tip of a wing of 4 % thickness ends at its trailing edge.
+/// Relative to the longest edge of a group: groups that do not extend farther than this are spots. A cone of half angle a is thinner than its edges are long
+/// over 1 / tan(a) edges from its point. Where the round tip of a wing of 4 % thickness ends at its trailing edge, this happens over 21 edges.
 constexpr double k_spot = 25.0;
-/// A triangle follows the surface if its normal is within this angle of the exact ones at two of its vertices (the third may be the point of a cone, without
-/// a normal). Two triangles around a half circle deviate by 45 degrees, folds by 90 and more.
+/// A triangle follows the surface if its normal is within this angle of the exact normals at two of its vertices. (The third vertex may be the point of a cone,
+/// which has no normal.) Two triangles around a half circle deviate by 45 degrees, folds by 90 degrees and more.
 constexpr double k_follows = 75.0 * std::numbers::pi / 180.0;
 
 struct LocalEdge {
   std::uint32_t low, high;
-  std::uint32_t triangle;  ///< number within the face
+  std::uint32_t triangle;  ///< number of the triangle within the face
   auto operator<=>(const LocalEdge&) const = default;
 };
 
-/// An edge with only one triangle of its face; vertices have their numbers across all faces.
+/// An edge with only one triangle of its face. Its vertices have their numbers across all faces.
 struct BorderEdge {
   std::uint32_t low = 0, high = 0;
   FaceId face;
   std::uint32_t triangle = 0;
   std::array<Vec3, 2> exact;  ///< outward normals of the surface at low and high; zero where the surface has none
   Vec3 normal;                ///< normal of the triangle
-  std::array<Point, 2> ends;  ///< low and high
+  std::array<Point, 2> ends;  ///< points at low and high
   bool follows = true;        ///< the triangle follows the surface
   Point middle() const { return 0.5 * (ends[0] + ends[1]); }
   bool before(const BorderEdge& other) const {
@@ -48,9 +49,9 @@ struct BorderEdge {
   }
 };
 
-/// Identifies a vertex across all faces: on a border by its number there, inside by its face.
+/// Identifies a vertex across all faces: a border vertex by its number there, an inner vertex by its number and face.
 struct VertexKey {
-  FaceId face;  ///< none for vertices of borders
+  FaceId face;  ///< invalid for vertices on borders
   std::uint32_t vertex = 0;
   bool operator==(const VertexKey&) const = default;
   bool operator<(const VertexKey& other) const { return std::pair(face.value(), vertex) < std::pair(other.face.value(), other.vertex); }
@@ -123,7 +124,7 @@ FaceAngles measure_face(const ModelFace& model_face, FaceId f, const MeshedFace&
       continue;
     }
     ++i;
-    if (e.high >= mesh.n_border) continue;  // belongs to a triangle at the point of a pole
+    if (e.high >= mesh.n_border) continue;  // the edge belongs to a triangle at a pole
     BorderEdge edge{.face = f,
                     .triangle = e.triangle,
                     .exact = {exact_normal(e.low), exact_normal(e.high)},
@@ -148,7 +149,8 @@ bool is_tangent(const BorderEdge& a, const BorderEdge& b) {
   return true;
 }
 
-/// Adds groups of sharp edges that share vertices. Groups that are no spots count, and all groups of a face with more than the spots at its two ends.
+/// Adds groups of sharp edges that share vertices. Groups that are not spots count. If a face has more spots than one at each of its two ends, all its groups
+/// count.
 void add_groups(const std::vector<SharpEdge>& edges, std::size_t n_faces, SmoothAngle& best) {
   std::vector<VertexKey> keys;
   for (const SharpEdge& e : edges) keys.insert(keys.end(), e.keys.begin(), e.keys.end());
@@ -162,7 +164,7 @@ void add_groups(const std::vector<SharpEdge>& edges, std::size_t n_faces, Smooth
     double longest = 0.0;
     bool follow = true;
     FaceId face;
-    double extent() const { return norm(box.max - box.min) / longest; }  ///< in edges
+    double extent() const { return norm(box.max - box.min) / longest; }  ///< extent of the group in edge lengths
   };
   std::vector<Group> groups(keys.size());
   for (const SharpEdge& e : edges) {

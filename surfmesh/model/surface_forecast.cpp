@@ -1,7 +1,7 @@
-// 1. The sizes of mesh_model, in the same order: of faces, of locations, of edges, carried over the surface.
-// 2. of_face: areas of grid cells divided by the area of an equilateral triangle of the local size; a face has at least as many triangles as border edges,
+// 1. The sizes of mesh_model, computed in the same order: sizes of faces, of locations and of edges, then carried over the surface.
+// 2. of_face: areas of grid cells are divided by the area of an equilateral triangle of the local size. A face has at least as many triangles as border edges,
 // minus two.
-// 3. explain: the rule that causes at least half of a face's triangles.
+// 3. explain: finds the rule that causes at least half of a face's triangles.
 #include "surfmesh/model/surface_forecast.h"
 
 #include <algorithm>
@@ -19,14 +19,15 @@
 namespace sterna::surfmesh {
 namespace {
 
-constexpr double k_rough = 2e7;  ///< triangles: above this, cells of sizes would take gigabytes
-/// Ratio of triangles made to those of the sizes: 1.05 to 1.16 on ten CAD models, since edges are cut into whole numbers of segments.
+constexpr double k_rough = 2e7;  ///< number of triangles; above it, the cells that store sizes would take gigabytes
+/// Ratio of the number of triangles made to the number that follows from the sizes. It was 1.05 to 1.16 on ten CAD models, because edges are cut into whole
+/// numbers of segments.
 constexpr double k_made = 1.1;
 constexpr double k_cause = 0.5;  ///< fraction of a face's triangles from which a rule counts as the cause
 constexpr double k_same_size = 1.05;
-constexpr int k_cell_samples = 2;    ///< in each direction of a cell inside a face
-constexpr int k_border_samples = 6;  ///< in each direction of a cell crossed by the border
-constexpr int k_most_pieces = 64;    ///< for an edge between two samples
+constexpr int k_cell_samples = 2;    ///< samples in each direction of a cell inside a face
+constexpr int k_border_samples = 6;  ///< samples in each direction of a cell crossed by the border
+constexpr int k_most_pieces = 64;    ///< largest number of pieces for an edge between two samples
 
 /// Sums for one face.
 struct FaceSum {

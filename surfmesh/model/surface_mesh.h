@@ -1,4 +1,4 @@
-// Meshes a model as one watertight triangulation: sizes, edges cut once, faces meshed in parallel and joined (docs/method/surface.md).
+// Meshes a model as one watertight triangulation: computes sizes, cuts each edge once, meshes the faces in parallel and joins them (docs/method/surface.md).
 #pragma once
 
 #include <array>
@@ -46,9 +46,9 @@ struct SurfaceMeshOptions {
   std::string periodic = {};
 };
 
-/// Options for the faces (patches) whose names match; NaN: the options above apply.
+/// Options for the faces (patches) whose names match. NaN: the options for all faces apply.
 struct PatchSurfaceOptions {
-  std::string names;                            ///< glob: "wing*"; "*" matches any characters, "?" any single one
+  std::string names;                            ///< pattern for names, such as "wing*"; "*" matches any characters, "?" any single one
   double max_edge = k_automatic;                ///< m
   double min_edge = k_automatic;                ///< m
   double curvature_angle = k_automatic;         ///< rad
@@ -66,13 +66,15 @@ struct PatchSurfaceOptions {
 
 /// Target edge lengths in space, independent of faces. They are also divided by `refinement`.
 struct SpaceSizes {
-  /// m, for a point and the change of length per distance: grows with distance; infinite where there is no target. Thread-safe.
+  /// Returns the target length in m, for a point and the change of length per distance. The length grows with distance and is infinite where there is no
+  /// target. Thread-safe.
   std::function<double(const Point&, double)> regions;
-  std::function<double(const Point&)> function;  ///< m, > 0; called only by the thread that called mesh_model; may be discontinuous
-  std::vector<SizeSite> samples;                 ///< smallest lengths at points
+  /// Returns the target length in m, > 0; called only by the thread that called mesh_model; may be discontinuous.
+  std::function<double(const Point&)> function;
+  std::vector<SizeSite> samples;  ///< targets at single points; the smallest applies
 };
 
-/// Location of a vertex on an edge of the model; no edge: inside a face, or a corner.
+/// Location of a vertex on an edge of the model. Without edge the vertex is a corner or lies inside a face.
 struct EdgePlace {
   EdgeId edge;
   double t = 0.0;
@@ -82,21 +84,21 @@ struct FaceMeshSummary {
   FaceId face;
   std::string name;
   std::int64_t n_triangles = 0;
-  std::int64_t n_band = 0;  ///< number of these in bands and strips, which the angles here exclude
+  std::int64_t n_band = 0;  ///< number of these triangles in bands and strips; the angles below exclude them
   double min_angle = 0.0;   ///< rad
   double max_angle = 0.0;
   Point worst_place{};                ///< location of the smallest angle
-  std::int64_t n_outside_20_130 = 0;  ///< triangles with an angle outside [20, 130] degrees
-  double max_normal_angle = 0.0;      ///< rad: between a triangle and the surface at a corner of it
+  std::int64_t n_outside_20_130 = 0;  ///< number of triangles with an angle outside [20, 130] degrees
+  double max_normal_angle = 0.0;      ///< rad: largest angle between a triangle and the surface at one of its corners
   Point normal_place{};
   double curvature_angle = 0.0;  ///< rad: target for max_normal_angle
-  double area = 0.0;             ///< m^2, of its triangles
-  double area_above = 0.0;       ///< m^2, of those whose normals deviate by more
+  double area = 0.0;             ///< m^2, area of its triangles
+  double area_above = 0.0;       ///< m^2, area of the triangles whose normals deviate by more than curvature_angle
 };
 
 /// An entity of the model that the mesh does not resolve.
 struct AbsorbedPart {
-  std::string what;  ///< "edge shorter than its tolerance", with the names of faces
+  std::string what;  ///< such as "edge shorter than its tolerance", with the names of faces
   Point place;
   double size = 0.0;  ///< metres
 };
@@ -106,71 +108,71 @@ struct CrossingFaces {
   FaceId first, second;
   std::int64_t n_pairs = 0;
   Point place{};             ///< location of the first pair
-  bool is_one_part = false;  ///< both of one solid, or of one open part
-  bool is_closed = false;    ///< the parts of both are closed
+  bool is_one_part = false;  ///< both faces belong to one solid, or to one open part
+  bool is_closed = false;    ///< the parts of both faces are closed
 };
 
 /// An edge whose vertices are farther from an adjacent face than the model's tolerances allow.
 struct LooseEdge {
   EdgeId edge;
   FaceId face;
-  double distance = 0.0;   ///< m, largest over its vertices
+  double distance = 0.0;   ///< m, largest distance of its vertices
   double tolerance = 0.0;  ///< m: largest of the tolerances of the edge, its corners and the face
   Point place{};
 };
 
-/// Bands along leading and trailing edges, and strips on blunt trailing edges.
+/// Bands along leading and trailing edges, and strips on the bases of blunt trailing edges.
 struct BandSummary {
   std::int64_t n_edges = 0;   ///< model edges with rows beside them
-  std::int64_t n_strips = 0;  ///< bases
+  std::int64_t n_strips = 0;  ///< bases with a strip
   std::int64_t n_triangles = 0;
-  double max_stretch = 0.0;        ///< cells in rows: length along : length across
-  double max_strip_stretch = 0.0;  ///< cells on bases
+  double max_stretch = 0.0;        ///< cells in rows: largest ratio of length along the edge to height across it
+  double max_strip_stretch = 0.0;  ///< the same ratio for cells on bases
   double max_growth = 0.0;         ///< largest ratio of consecutive row heights
   std::vector<std::string> notes;  ///< requirements that could not be met, and locations where rows had to be omitted
 };
 
 struct SurfaceMeshReport {
-  std::vector<FaceMeshSummary> faces;  ///< in the order of the model
+  std::vector<FaceMeshSummary> faces;  ///< summaries in the order of the model's faces
   std::vector<AbsorbedPart> absorbed;
-  double min_angle = 0.0;  ///< rad; these four describe isotropic triangles, without those of bands
+  double min_angle = 0.0;  ///< rad; this value and the next three describe isotropic triangles, without those of bands
   double max_angle = 0.0;
-  double mean_radius_ratio = 0.0;              ///< 2 r / R, 1 = equilateral: by area
-  std::array<std::int64_t, 6> least_angles{};  ///< triangles by their smallest angle: below 10 degrees, below 20, ... up to 60
-  double angle_quantile_1 = 0.0;               ///< rad: 1 % of the triangles have a smaller smallest angle
-  double share_20_130 = 1.0;                   ///< fraction of the triangles with all angles within
-  FaceId worst_face;                           ///< face that has min_angle
-  double max_edge_distance = 0.0;              ///< metres: from a vertex on an edge to an adjacent face
+  double mean_radius_ratio = 0.0;              ///< mean weighted by area of 2 r / R, which is 1 for an equilateral triangle
+  std::array<std::int64_t, 6> least_angles{};  ///< numbers of triangles by their smallest angle: below 10 degrees, below 20, and so on up to 60
+  double angle_quantile_1 = 0.0;               ///< rad: 1 % of the triangles have their smallest angle below this value
+  double share_20_130 = 1.0;                   ///< fraction of the triangles whose angles are all within [20, 130] degrees
+  FaceId worst_face;                           ///< face with the smallest angle min_angle
+  double max_edge_distance = 0.0;              ///< metres: largest distance of a vertex on an edge from an adjacent face
   Point edge_distance_place{};
-  std::vector<LooseEdge> loose_edges;  ///< by falling distance / tolerance
-  FaceId worst_normal_face;            ///< face whose normals exceed the target angle by most; invalid if none does
-  double share_normals = 1.0;          ///< fraction of the area: triangles within the curvature angle of the surface's normals at their corners
-  double max_smooth_angle = 0.0;       ///< rad: largest turn between two triangles where the model has no crease; a feature angle must exceed it
+  std::vector<LooseEdge> loose_edges;  ///< sorted by falling ratio of distance to tolerance
+  FaceId worst_normal_face;            ///< face whose normals exceed the curvature angle by most; invalid if none does
+  double share_normals = 1.0;     ///< fraction of the area covered by triangles that are within the curvature angle of the surface's normals at their corners
+  double max_smooth_angle = 0.0;  ///< rad: largest turn between two triangles where the model has no crease; a feature angle must exceed it
   Point smooth_angle_place{};
-  std::int64_t n_free_edges = 0;         ///< free edges of triangles: along free edges of the model
+  std::int64_t n_free_edges = 0;         ///< number of free edges of triangles, which lie along free edges of the model
   int n_rounds = 1;                      ///< rounds of meshing; above 1 if regions had to be refined to become valid
   std::int64_t n_crossings = 0;          ///< pairs of triangles that cross and could not be separated by refinement
-  std::vector<CrossingFaces> crossings;  ///< by falling number; of the first 100 000 pairs
+  std::vector<CrossingFaces> crossings;  ///< sorted by falling number; from the first 100 000 pairs only
   BandSummary bands;
 };
 
 /// A surface mesh with the model locations of its vertices.
 struct SurfaceMesh {
-  TriMesh mesh;  ///< one patch per face name; vertices: corners, then edges, then inner ones; if parts were joined, part by part (join_parts.h)
-  Column<VertexId, VertexPlace> places;  ///< vertices on edges: on the first face that uses them
+  TriMesh mesh;  ///< one patch per face name. Vertices: corners, then edges, then inner ones; if parts were joined, part by part (join_parts.h)
+  Column<VertexId, VertexPlace> places;  ///< a vertex on an edge has its place on the first face that uses it
   Column<VertexId, EdgePlace> edge_places;
-  Column<CornerId, VertexId> corner_vertices;  ///< per corner of the model; invalid if no triangle has it
+  Column<CornerId, VertexId> corner_vertices;  ///< vertex of each corner of the model; invalid if no triangle has it
   Column<TriangleId, FaceId> triangle_face;
-  Column<TriangleId, std::uint8_t> is_band;  ///< laid in rows, possibly stretched
+  Column<TriangleId, std::uint8_t> is_band;  ///< true for triangles laid in rows, possibly stretched
   SurfaceMeshReport report;
 };
 
-/// Meshes a whole model. Vertices inside faces lie exactly on their surface, those on edges exactly on the edge's curve, and corners are those of the model.
-/// Normals point outwards as defined by the model's faces. Closed models give closed meshes; elsewhere boundary loops are the model's free edges.
-/// \throws Error(geometry_failed) naming the faces that cannot be meshed, with locations; Error(bad_argument) for sizes that are not positive, a rule that no
-/// face's name matches, or sides of `periodic` that are not images of each other; Error(overflow) beyond max_triangles, at once if sizes and areas predict
-/// it; Error(non_manifold_surface) if triangles of faces do not join; Error(self_intersection) if triangles cross that refinement does not separate, unless
-/// options.crossings allows it
+/// Meshes a whole model. Vertices inside faces lie exactly on their surface, and vertices on edges exactly on the edge's curve. Corners are those of the model.
+/// Normals point outwards as defined by the model's faces. Closed models give closed meshes. The boundary loops of other meshes are the model's free edges.
+/// \throws Error(geometry_failed) naming the faces that cannot be meshed, with locations; Error(bad_argument) for sizes that are not positive, a rule that
+/// matches no face's name, or sides of `periodic` that are not images of each other; Error(overflow) for more than max_triangles, before meshing if sizes and
+/// areas predict it; Error(non_manifold_surface) if triangles of faces do not join; Error(self_intersection) for crossing triangles that refinement does not
+/// separate, unless options.crossings allows them
 SurfaceMesh mesh_model(const Model& model, const SurfaceMeshOptions& options, std::span<const PatchSurfaceOptions> patches, const RunContext& context);
 SurfaceMesh mesh_model(const Model& model, const SurfaceMeshOptions& options, std::span<const PatchSurfaceOptions> patches, const SpaceSizes& asked,
                        const RunContext& context);

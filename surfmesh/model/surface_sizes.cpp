@@ -1,7 +1,7 @@
-// 1. A lower bound: all sources with distances through space. It sets the required resolution of stations and cells wherever sizes may be small.
-// 2. Stations along edges, the faces' borders through them, cells of the faces.
-// 3. One graph of corners, stations and nodes of cells, each with its own required size; sizes are carried along the graph.
-// 4. Values at corners of cells, with the edges that run through them.
+// 1. A lower bound: all sources, with distances through space. It sets the resolution of stations and cells that small sizes require.
+// 2. Stations along edges, the borders of faces through these stations, and the cells of the faces.
+// 3. One graph of corners, stations and nodes of cells, each with its own required size. Sizes are carried along the graph.
+// 4. Values at the corners of cells, and the edges that run through each cell.
 #include "surfmesh/model/surface_sizes.h"
 
 #include <algorithm>
@@ -13,10 +13,10 @@
 namespace sterna::surfmesh {
 namespace {
 
-/// Largest distance of stations relative to the lower bound.
+/// Largest distance between stations, relative to the lower bound.
 constexpr double k_station_sizes = 1.0;
 constexpr int k_max_size_halvings = 24;
-/// Number of intermediate points between two stations, used to find the cells that an edge runs through.
+/// Number of intermediate points between two stations. They are used to find the cells that an edge runs through.
 constexpr int k_between = 4;
 
 double distance_along(const Point& p, const Point& a, const Point& b, double& share) {
@@ -26,13 +26,13 @@ double distance_along(const Point& p, const Point& a, const Point& b, double& sh
   return distance(p, a + share * along);
 }
 
-/// A station during construction of the graph.
+/// A station while the graph is constructed.
 struct Stop {
   double t = 0.0;
   Point point;
   double asked = 0.0;
   std::uint32_t node = 0;
-  std::array<Vec3, 2> normals{};  ///< normals of its faces; zero if there are more than two, or none
+  std::array<Vec3, 2> normals{};  ///< normals of the two faces of its edge; zero if there are more than two faces, or none
 };
 
 }  // namespace
@@ -49,7 +49,7 @@ struct SurfaceSizes::Builder {
   Column<EdgeId, std::vector<Stop>> stops;
   SizeGraph graph;
 
-  /// Runs in parallel if user functions may be called from any thread.
+  /// Runs the loop in parallel if user functions may be called from any thread.
   template <class Body>
   void for_each(std::size_t n, std::size_t chunk, const Body& body) const {
     if (!sizes.places.is_serial()) return parallel_for(context, n, body, chunk);
@@ -83,7 +83,8 @@ struct SurfaceSizes::Builder {
         [&](std::size_t i) { keep_face(FaceId(static_cast<std::uint64_t>(i)), first_node[FaceId(static_cast<std::uint64_t>(i))]); }, 1);
   }
 
-  /// Places stops at the samples of the edge, thinned to the distance that sizes require there, or with intermediate stops.
+  /// Places stops at the samples of the edge. Samples nearer to each other than the sizes require are left out; between samples farther apart, intermediate
+  /// stops are added.
   void place_stops(EdgeId e, const std::vector<EdgeUsePlace>& uses) {
     const ModelEdge& edge = model.edges[e];
     const std::vector<EdgeSample>& samples = edges[e].samples;
@@ -111,7 +112,7 @@ struct SurfaceSizes::Builder {
     std::vector<Stop>& list = stops[e];
     End before = end_at(samples.front().t, samples.front().point, asked.front());
     list.push_back({before.t, before.point, before.asked, 0});
-    double along = 0.0;  // since the last stop
+    double along = 0.0;  // length since the last stop
     for (std::size_t i = 1; i < samples.size(); ++i) {
       const End after = end_at(samples[i].t, samples[i].point, asked[i]);
       pieces.push_back({before, after, 0});
@@ -132,7 +133,7 @@ struct SurfaceSizes::Builder {
           list.push_back({piece.b.t, piece.b.point, piece.b.asked, 0});
           along = 0.0;
         } else {
-          // A requirement between stops is passed to the last stop.
+          // If a sample between two stops requires a size, the last stop gets that requirement.
           list.back().asked = std::min(list.back().asked, piece.b.asked + field.growth_ * along);
         }
       }
@@ -154,7 +155,7 @@ struct SurfaceSizes::Builder {
     return normals;
   }
 
-  /// Visits (u, v) of the stops of one use, in the sense of its border.
+  /// Visits (u, v) of the stops of one edge use, in the direction of its border.
   template <class Visit>
   void for_stops(const OutlineUse& entry, const Visit& visit) const {
     const EdgeUse& use = model.faces[entry.place.face].borders[entry.place.border][entry.place.place];
@@ -185,7 +186,7 @@ struct SurfaceSizes::Builder {
         box.v = {std::min(box.v.from, at.v), std::max(box.v.to, at.v)};
       }
     }
-    // Borders that run around a period are closed by a seam that is not a model edge.
+    // Borders that run around a period are closed by a seam. The seam is not an edge of the model.
     if (!outline.winding.empty()) {
       loops = outline.polygons;
       for (const auto& loop : loops)
@@ -221,7 +222,7 @@ struct SurfaceSizes::Builder {
         if (k > 0) join(list[k - 1].node, list[k].node);
       }
     }
-    // Both sides of an absorbed strip are the same line.
+    // Both sides of an absorbed strip are the same line, so their stations become neighbours.
     for (const EdgeId e : model.edges.ids()) {
       const SameEdge& same = topology.same_as[e];
       if (same.edge == e || stops[e].empty() || stops[same.edge].empty()) continue;

@@ -1,8 +1,9 @@
-// 1. gather_sides   relation of each edge to its adjacent faces: turn, outward direction, curvature across
-// 2. find_strips    bases of blunt trailing edges, where cells or a band are requested
-// 3. find_edges     leading edges: smooth between two faces, most curved, facing forward; trailing edges: sharp and facing aft, or the long sides of a base
-// 4. join_at_corners  corners across which a band continues, and edges that are its columns there
-// 5. set_spacing    lengths along: from the stretch, the edge's own curvature, the chord, and small at the ends
+// 1. gather_sides   finds how each edge lies to its adjacent faces: turn, outward direction, curvature across
+// 2. find_strips    finds the bases of blunt trailing edges for which options require cells or a band
+// 3. find_edges     finds leading edges (smooth between two faces, most curved, facing forward) and trailing edges (sharp and facing aft, or the long sides of
+// a base)
+// 4. join_at_corners  finds corners across which a band continues, and edges that are columns of the band there
+// 5. set_spacing    sets the segment lengths along the edges: from the stretch, the edge's own curvature and the chord, and small at the ends
 #include "surfmesh/model/wing_bands.h"
 
 #include <algorithm>
@@ -19,18 +20,18 @@ namespace {
 
 constexpr double k_infinite = std::numeric_limits<double>::infinity();
 constexpr double k_smooth_turn = 20.0 * k_degree;
-/// Triangles with more stretch are of no use even below prisms (docs/method/surface.md, "Wing edges and bands").
+/// Largest useful stretch: more stretched triangles have no benefit, even below prisms (docs/method/surface.md, "Wing edges and bands").
 constexpr double k_largest_stretch = 50.0;
-/// A use of an edge, or of an equal edge.
+/// A use of an edge, or of the edge on the other side of an absorbed strip.
 struct Side {
   EdgeUsePlace place;
-  bool is_against = false;  ///< its edge runs against the one that represents both
+  bool is_against = false;  ///< the edge of this use runs against the edge that represents both
 };
 
 struct Look {
-  Vec3 normal;   ///< as in the model
-  Vec3 inwards;  ///< along the surface, from the edge into the face
-  Vec3 bend;     ///< 1/m: curvature in that direction, towards its centre
+  Vec3 normal;   ///< outward normal, as defined by the model
+  Vec3 inwards;  ///< direction along the surface, from the edge into the face
+  Vec3 bend;     ///< 1/m: curvature of the surface in the direction `inwards`, as a vector towards the centre of curvature
   bool is_valid = false;
 };
 
@@ -54,12 +55,12 @@ Look look(const Model& model, const Side& side, double share) {
   return result;
 }
 
-/// Shape measures, equal for the faces of a solid and those of the fluid around it, whose normals are opposite.
+/// Measures of an edge's shape. They are the same for the faces of a solid and for the faces of the fluid around it, whose normals are opposite.
 struct BandShape {
   std::size_t n_smooth = 0, n_sharp = 0;
-  int n_base = 0;          ///< number of convex edges minus number of concave ones
+  int n_base = 0;          ///< number of convex edges minus number of concave edges
   double looks = 0.0;      ///< mean x of the outward direction of the edge
-  double curvature = 0.0;  ///< mean across, on the side where it is less
+  double curvature = 0.0;  ///< mean curvature across the edge, on the side where it is less
 };
 
 BandShape shape_of(const Model& model, const Side& a, const Side& b) {
@@ -114,7 +115,7 @@ struct Finding {
   const ModelSizes& sizes;
   const ModelTopology& topology;
   WingBands bands;
-  Column<EdgeId, std::vector<Side>> sides;  ///< for edges that represent themselves and faces that remain
+  Column<EdgeId, std::vector<Side>> sides;  ///< sides of the edges that represent themselves, on faces that remain
 
   const FaceSizes& of(const Side& side) const { return sizes.faces[side.place.face]; }
   bool is_strip(const Side& side) const { return bands.strips[side.place.face].has_value(); }
@@ -140,7 +141,7 @@ const Side* other_side(const std::vector<Side>& sides, FaceId f) {
 
 double area_of(const Finding& finding, FaceId f) { return finding.sizes.faces[f].curvature->area(); }
 
-/// Returns the two long sides of a face that is a base; sets no other members.
+/// Returns the two long sides of a face that is a base; sets no other member of the result.
 std::optional<BaseStrip> strip_of(const Finding& finding, FaceId f) {
   const Model& model = finding.model;
   const ModelFace& face = model.faces[f];
@@ -187,7 +188,7 @@ std::optional<BaseStrip> strip_of(const Finding& finding, FaceId f) {
     const EdgeUse& use = face.borders[0][at];
     return use.is_reversed == finding.topology.same_as[use.edge].is_reversed;
   };
-  // Both follow the border, so along the strip they run against each other; edges of the same sense then have opposite parameters.
+  // Both uses follow the border, so along the strip they run against each other. Edges that both run with their border therefore have opposite parameters.
   strip.is_against = runs_with_border(uses[a].at) == runs_with_border(uses[b].at);
   return strip;
 }
@@ -210,7 +211,7 @@ void find_strips(Finding& finding) {
       wish = both(wish, finding.of(*other).trailing);
     }
     if (is_automatic(cells) && !wish.is_any()) continue;
-    // Not given: about square beside the first row.
+    // If the number is not given, cells are about square beside the first row.
     if (is_automatic(cells)) cells = std::max(1.0, strip->width / wish.first_height(finding.sizes.faces[f].max_edge));
     strip->n_cells = static_cast<std::size_t>(std::max(1.0, std::round(cells)));
     for (const EdgeId e : strip->short_edges) finding.bands.n_short[e] = std::max(finding.bands.n_short[e], strip->n_cells);
@@ -223,7 +224,7 @@ void find_strips(Finding& finding) {
   if (is_asked && !is_found && finding.bands.notes.empty())
     finding.bands.notes.push_back(
         "trailing_edge_cells has no effect: no face of the model is the base of a blunt trailing edge (four sides, narrow, facing aft)");
-  // A short side shared by two strips has the cells of the finer one; neighbours along the span follow.
+  // A short side that two strips share gets the number of cells of the finer strip. The other strip, and its neighbours along the span, follow.
   for (bool is_changed = true; is_changed;) {
     is_changed = false;
     for (std::optional<BaseStrip>& strip : finding.bands.strips) {
@@ -297,7 +298,7 @@ bool is_short_of_strips(const Finding& finding, EdgeId e) {
   return finding.bands.n_short[e] > 0 && finding.sides[e].size() == 2 && finding.is_strip(finding.sides[e][0]) && finding.is_strip(finding.sides[e][1]);
 }
 
-/// Returns true if the band of two edge ends continues across their corner; then the other edges there are cut as its columns.
+/// Returns true if the band of two edge ends continues across their corner. The other edges at the corner are then cut as columns of the band.
 bool goes_on(Finding& finding, End a, End b, const std::vector<End>& at_corner) {
   const BandEdge &p = *finding.bands.edges[a.edge], &q = *finding.bands.edges[b.edge];
   const Vec3 along = direction_at(finding, a), back = direction_at(finding, b);
@@ -307,7 +308,7 @@ bool goes_on(Finding& finding, End a, End b, const std::vector<End>& at_corner) 
     if ((end.edge == a.edge && end.end == a.end) || (end.edge == b.edge && end.end == b.end) || is_short_of_strips(finding, end.edge)) continue;
     const Vec3 across = direction_at(finding, end);
     const double sine = std::min(norm(cross(across, along)), norm(cross(across, back)));
-    // The edge has rows on both sides.
+    // Tests if the edge has rows on both sides.
     const auto has_rows = [&](const Side& side) {
       const auto& list = finding.bands.bands_of_face[side.place.face];
       return std::find(list.begin(), list.end(), a.edge) != list.end() || std::find(list.begin(), list.end(), b.edge) != list.end();
@@ -408,7 +409,7 @@ void set_spacing(Finding& finding) {
 }
 
 void note_missing(Finding& finding) {
-  std::map<std::string, bool> leading, trailing, cells;  // by rule: true if an edge was found
+  std::map<std::string, bool> leading, trailing, cells;  // per rule: true if an edge was found for it
   for (const FaceId f : finding.model.faces.ids()) {
     const FaceSizes& sizes = finding.sizes.faces[f];
     if (sizes.leading.is_any()) leading[sizes.leading.rule];
@@ -459,7 +460,7 @@ void WingBands::overrule(const Column<EdgeId, EdgeSamples>& samples, const std::
   if (edges[e]) {
     sizes = edges[e]->spacing;
   } else if (n_short[e] > 0) {
-    // Short side of a strip of cells; if the strip continues beyond it, the strip requires no size there.
+    // This is the short side of a strip of cells. If the strip continues beyond it, the strip requires no size there.
     sizes.assign(sizes.size(), is_short_ending[e] != 0 ? samples[e].length / static_cast<double>(n_short[e]) : largest);
   } else if (!is_unused) {
     for (std::size_t k = 0; k < sizes.size(); ++k)

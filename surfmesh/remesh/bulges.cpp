@@ -1,5 +1,5 @@
-// The normals at both ends of an edge each give the rise of an arc. The lower of the two is used, and zero if they disagree in sign. For lines the tangents
-// at both ends are used instead.
+// The normals at both ends of an edge each give the rise of an arc over the edge. The lower rise is used, or zero if the two disagree in sign. For edges on
+// lines, the tangents at both ends are used instead.
 #include "surfmesh/remesh/bulges.h"
 
 #include <algorithm>
@@ -12,9 +12,9 @@
 namespace sterna::surfmesh {
 namespace {
 
-/// Largest angle between an edge and the curve over it, rad: edges with a larger bend are lines.
+/// Rad: largest angle between an edge and the curve over it. Edges with a larger bend are lines.
 constexpr double k_most_rise = 0.5;
-/// Largest ratio of a bulge to the height of an adjacent triangle: a higher patch beside a short edge would overlap its neighbours.
+/// Largest ratio of a bulge to the height of an adjacent triangle. A higher patch beside a short edge would overlap its neighbours.
 constexpr double k_bulge_of_height = 0.2;
 
 /// Returns the half-edge of an edge with the smaller id.
@@ -41,16 +41,16 @@ void find_line_bulges(const Reference& r, FeatureLine& line, const StraightParts
   const std::size_t n = line.vertices.size();
   line.bulges.assign(n - 1, Vec3{});
   const auto is_straight = [&](std::size_t i) { return parts.is_straight[line.halfedges[i]] != 0; };
-  // Tangents from the circle through three vertices, or of a straight segment; ends have none.
+  // Tangent at a vertex of the circle through three consecutive vertices, or of a straight segment. The ends have no tangent.
   std::vector<Vec3> tangents(n);
   for (std::size_t i = 1; i + 1 < n; ++i) {
     const Vec3 in = at(i) - at(i - 1), out = at(i + 1) - at(i);
     const bool is_in = is_straight(i - 1), is_out = is_straight(i);
     tangents[i] = normalized(is_in == is_out ? norm2(out) * in + norm2(in) * out : is_in ? in : out);
   }
-  // At an end the line continues with its bend there, if it still has the same bend behind the next vertex.
+  // At an end, the line is continued with the bend of the last inner vertex, provided that the next vertex inwards has the same bend.
   const auto rise_at_end = [&](std::size_t near, std::size_t far, const Vec3& rise, double length) {
-    if (far == 0 || far >= n - 1) return Vec3{};  // also for a line of one edge, behind which there is no vertex
+    if (far == 0 || far >= n - 1) return Vec3{};  // also returned for a line with a single edge, behind which there is no vertex
     const double behind = distance(at(near), at(far));
     const double bend = angle_between(tangents[near], tangents[far]) * 0.5 * length / behind;
     return norm(rise) > 0.0 ? std::min(1.0, bend / norm(rise)) * rise : rise;
@@ -59,7 +59,7 @@ void find_line_bulges(const Reference& r, FeatureLine& line, const StraightParts
     if (is_straight(i)) continue;
     const double length = distance(at(i), at(i + 1));
     const Vec3 e = (at(i + 1) - at(i)) / length;
-    // Both point to the side of the curve.
+    // Both rises point to the side of the curve.
     Vec3 rise_a = tangents[i] - dot(tangents[i], e) * e, rise_b = dot(tangents[i + 1], e) * e - tangents[i + 1];
     if (i == 0) rise_a = rise_at_end(1, 2, rise_b, length);
     if (i + 2 == n) rise_b = rise_at_end(n - 2, n - 3, rise_a, length);
@@ -80,7 +80,7 @@ Vec3 limited(const Reference& r, HalfedgeId h, const Vec3& bulge) {
   return rise > most ? most / rise * bulge : bulge;
 }
 
-/// Removes the component of the bulge out of the planes of flat faces beside the edge.
+/// Removes the component of the bulge that points out of the planes of flat faces beside the edge.
 Vec3 in_planes(const Reference& r, HalfedgeId h, Vec3 bulge, const StraightParts& parts) {
   for (const HalfedgeId e : {h, r.topology.twin(h)}) {
     if (!e.is_valid()) continue;

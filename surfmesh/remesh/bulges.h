@@ -7,7 +7,7 @@
 
 namespace sterna::surfmesh {
 
-/// Sets the bulges of lines and of all edges. \param flat triangles without bulge; empty: none
+/// Sets the bulges of lines and of all edges. \param flat true for triangles without bulge; empty if there are none
 void find_bulges(Reference& reference, const Column<TriangleId, std::uint8_t>& flat, const StraightParts& parts, const RunContext& context);
 
 }  // namespace sterna::surfmesh

@@ -15,9 +15,9 @@
 namespace sterna::surfmesh {
 namespace {
 
-/// A nose is sampled over this fraction of the adjacent width, and is longer than that second fraction of it.
+/// The bend of a nose is measured over the first fraction of the adjacent width. A nose line is longer than the second fraction of that width.
 constexpr double k_nose_probe = 0.01, k_nose_length = 0.25;
-/// Largest ratio of the widths on both sides of a leading edge.
+/// Largest ratio of the larger to the smaller of the widths on both sides of a leading edge.
 constexpr double k_alike_width = 3.0;
 /// Largest number of triangles on one path across the surface.
 constexpr int k_most_passed = 100'000;
@@ -26,9 +26,9 @@ constexpr int k_most_passed = 100'000;
 struct LineLook {
   double turn = 0.0;  ///< rad
   bool is_convex = false;
-  Vec3 looks;                   ///< unit: outward direction, halfway between both sides
+  Vec3 looks;                   ///< unit outward direction, halfway between both sides
   std::array<Vec3, 2> normal;   ///< normals of the surface beside it
-  std::array<double, 2> width;  ///< m, across each side
+  std::array<double, 2> width;  ///< m, width of the surface on each side
 };
 
 LineLook look_at_line(const Reference& r, const FeatureLine& line, std::size_t segment, double most) {
@@ -51,10 +51,11 @@ LineLook look_at_line(const Reference& r, const FeatureLine& line, std::size_t s
 }
 
 struct LineShape {
-  std::size_t n_sharp = 0, n_convex = 0, n_corner = 0;  ///< number of the k_looks locations
-  double looks = 0.0;                                   ///< mean x
-  std::array<double, 2> looks_of_side{};                ///< mean x of each side's normal
-  std::array<double, 2> width{};                        ///< m, mean
+  /// Numbers of sampled locations with a sharp turn, with a convex turn, and with the turn of a corner of a base.
+  std::size_t n_sharp = 0, n_convex = 0, n_corner = 0;
+  double looks = 0.0;                     ///< mean x component of the outward direction
+  std::array<double, 2> looks_of_side{};  ///< mean x component of each side's normal
+  std::array<double, 2> width{};          ///< m, mean width of each side
 };
 
 /// Returns the segment of the k-th sampled location on a line.
@@ -80,14 +81,14 @@ LineShape shape_of_line(const Reference& r, std::int32_t number, double most) {
   return shape;
 }
 
-/// Returns the narrow side, if the line is the side of a base that faces aft.
+/// Returns the number of the narrow side if the line is a side of a base that faces aft.
 std::optional<std::size_t> base_side(const LineShape& shape, double length) {
   for (std::size_t i = 0; i < 2; ++i)
     if (shape.looks_of_side[i] > k_looks_along && shape.width[i] < k_strip_width * shape.width[1 - i] && length > k_strip_length * shape.width[i]) return i;
   return std::nullopt;
 }
 
-/// Returns the radius of the bend over `reach` to each side in metres; the mean of all locations.
+/// Returns the radius of the bend across the line in metres, measured over `reach` to each side. The result is the mean over all sampled locations.
 double radius_across(const Reference& r, std::int32_t number, double reach) {
   double sum = 0.0;
   for (std::size_t k = 0; k < k_looks; ++k) {
@@ -122,7 +123,7 @@ double width_across(const Reference& r, HalfedgeId h, double most) {
   Vec3 way = inward_of(h);
   double length = 0.0;
   for (int i = 0; i < k_most_passed && length < most; ++i) {
-    // The path leaves the triangle over the edge that it meets first.
+    // The path leaves the triangle across the edge that it meets first.
     HalfedgeId out;
     double least = std::numeric_limits<double>::infinity();
     for (const HalfedgeId e : {next(h), previous(h)}) {
@@ -196,7 +197,7 @@ RowLines find_row_lines(const Reference& r, const SurfaceLimitTable& limits_of, 
       const SurfaceLimits& limits = limits_of.of(beside[i]);
       rows.sides[i] = {true, std::min(limits.max_edge, band.first_height(limits.max_edge)), band.growth, limits.curvature_angle, limits.min_edge};
       rows.longest = std::min(rows.longest, band.longest(limits.max_edge));
-      // All rows of one side fit into their fraction of its width.
+      // All rows of one side must fit into their fraction of its width.
       const double room = k_share_of_chord * shape.width[i];
       rows.longest =
           std::min(rows.longest, std::max(rows.sides[i].first, (room * (band.growth - 1.0) + rows.sides[i].first) / (k_isotropic_height * band.growth)));
@@ -211,7 +212,7 @@ RowLines find_row_lines(const Reference& r, const SurfaceLimitTable& limits_of, 
     (*kind == BandKind::leading ? is_leading_found : is_trailing_found) = true;
     found.lines.push_back(rows);
   }
-  // Rows continue where another line with rows begins.
+  // Rows continue where another line with rows begins at the same vertex.
   std::vector<std::uint32_t> n_at(r.mesh->n_vertices(), 0);
   for (const LineRows& rows : found.lines)
     for (const VertexId v : {r.lines[static_cast<std::size_t>(rows.line)].vertices.front(), r.lines[static_cast<std::size_t>(rows.line)].vertices.back()})

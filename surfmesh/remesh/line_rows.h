@@ -1,5 +1,5 @@
-// Trailing and leading edges of a triangulation that get rows of stretched triangles, as surface_mesh lays them on CAD. Rules: docs/method/surface.md,
-// "Wing edges and bands".
+// Trailing and leading edges of a triangulation that get rows of stretched triangles, like those that surface_mesh lays on CAD models. Rules:
+// docs/method/surface.md, "Wing edges and bands".
 #pragma once
 
 #include <array>
@@ -19,16 +19,16 @@ struct SideRows {
   double first = 0.0;            ///< m, height of the first row
   double growth = 1.2;           ///< ratio of consecutive row heights
   double curvature_angle = 0.2;  ///< rad: a row spans at most this angle of the surface,
-  double min_edge = 0.0;         ///< m: the angle does not reduce the height below this
+  double min_edge = 0.0;         ///< m: the angle does not reduce the height below this length
 };
 
 struct LineRows {
   std::int32_t line = k_no_line;
-  std::array<SideRows, 2> sides;  ///< left of the line, right of it
+  std::array<SideRows, 2> sides;  ///< left and right of the line
   double longest = 0.0;           ///< m: upper limit of edge lengths along the line
   bool is_nose = false;
   double at_ends = 0.0;               ///< m, for a nose: size required by its curvature where rows end
-  std::array<bool, 2> is_going_on{};  ///< at its start, its end: another line with rows continues there
+  std::array<bool, 2> is_going_on{};  ///< at its start and at its end: true if another line with rows continues there
 };
 
 struct RowLines {
@@ -36,13 +36,14 @@ struct RowLines {
   std::vector<std::string> notes;  ///< requirements that could not be met
 };
 
-/// Finds lines with rows. These are sharp lines (a turn of more than 120 degrees) that face aft or forward along x; the sides of narrow bases that face aft,
-/// with rows on the wing's side only; and lines laid on smooth noses (is_nose) where the surface has the curvature of a nose. Lines of kept triangles have no
-/// rows.
+/// Finds lines with rows. There are three types: sharp lines (a turn of more than 120 degrees) that face aft or forward along x; the sides of narrow bases that
+/// face aft, with rows on the wing's side only; and lines laid on smooth noses (is_nose) where the surface has the curvature of a nose. Lines of kept triangles
+/// have no rows.
 RowLines find_row_lines(const Reference& reference, const SurfaceLimitTable& limits, const RemeshOptions& options,
                         std::span<const PatchSurfaceOptions> patches);
 
-/// Returns the distance in metres across the surface, at right angles from the middle of a half-edge into its triangle, to the next line, at most `most`.
+/// Returns the width of the surface beside a half-edge in metres: the distance from its middle, at right angles into its triangle, across the surface to the
+/// next line. The result is at most `most`.
 double width_across(const Reference& reference, HalfedgeId h, double most);
 
 }  // namespace sterna::surfmesh

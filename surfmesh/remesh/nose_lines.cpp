@@ -12,20 +12,20 @@
 namespace sterna::surfmesh {
 namespace {
 
-/// A nose nearer to a vertex than this fraction of the edge is moved through the vertex.
+/// If a nose crosses an edge nearer to a vertex than this fraction of the edge, it is moved through the vertex.
 constexpr double k_snap = 0.15;
-/// Below this component of x across the span, the nose is at the vertex.
+/// If the direction across the span has an x component below this value, the nose passes through the vertex.
 constexpr double k_exactly_ahead = 1e-6;
-/// Cosine between the spans of neighbours.
+/// Smallest cosine between the span directions of neighbouring vertices.
 constexpr double k_same_span = 0.5;
-/// Limit of the normal's x component on a nose, which faces forward.
+/// Largest x component of the normal on a nose, which faces forward.
 constexpr double k_nose_ahead = -0.2;
-/// Number of power iterations for a span's direction from the tensor.
+/// Number of power iterations that find the span direction from the tensor.
 constexpr int k_power_steps = 24;
 
-/// Sum of bends times squared edge lengths around a vertex (Cohen-Steiner & Morvan 2003; Alliez et al. 2003): its dominant direction is along the span.
+/// Sum of bends times squared edge lengths around a vertex (Cohen-Steiner & Morvan 2003; Alliez et al. 2003). Its dominant direction is the span.
 struct BendTensor {
-  std::array<double, 6> t{};  ///< xx, yy, zz, xy, yz, zx
+  std::array<double, 6> t{};  ///< components xx, yy, zz, xy, yz, zx
   void add(double weight, const Vec3& e) {
     t[0] += weight * e.x * e.x;
     t[1] += weight * e.y * e.y;
@@ -37,8 +37,8 @@ struct BendTensor {
   Vec3 times(const Vec3& v) const { return {t[0] * v.x + t[3] * v.y + t[5] * v.z, t[3] * v.x + t[1] * v.y + t[4] * v.z, t[5] * v.x + t[4] * v.y + t[2] * v.z}; }
 };
 
-/// Returns the span direction in the smooth piece in which a half-edge begins at its vertex: unit, along the surface; zero if the surface is flat or equally
-/// curved in all directions there.
+/// Returns the span direction at the vertex where the half-edge `corner` begins, in the smooth piece of that half-edge. The result is a unit vector along the
+/// surface; it is zero if the surface is flat there or equally curved in all directions.
 Vec3 span_at(const Reference& r, HalfedgeId corner) {
   BendTensor tensor;
   const Point& p = r.mesh->points[r.topology.from(corner)];
@@ -48,7 +48,7 @@ Vec3 span_at(const Reference& r, HalfedgeId corner) {
   const auto add = [&](HalfedgeId h) {
     const Vec3 e = r.mesh->points[r.topology.to(h)] - p;
     const Vec3 &a = r.triangle_normals[triangle_of(h)], &b = r.triangle_normals[triangle_of(r.topology.twin(h))];
-    const double bend = std::copysign(angle_between(a, b), dot(cross(a, b), e));  // convex is positive
+    const double bend = std::copysign(angle_between(a, b), dot(cross(a, b), e));  // positive if the edge is convex
     const double length = norm(e);
     if (!(length > 0.0)) return;
     tensor.add(bend / length, e);
@@ -57,7 +57,7 @@ Vec3 span_at(const Reference& r, HalfedgeId corner) {
       start = e;
     }
   };
-  // Clockwise up to a line or once around, then the other way.
+  // The triangles are visited clockwise up to a line or once around, then counter-clockwise.
   const auto is_line = [&](HalfedgeId h) { return r.line[h] != k_no_line || !r.topology.twin(h).is_valid(); };
   HalfedgeId h = corner;
   bool is_around = false;
@@ -85,10 +85,10 @@ Vec3 span_at(const Reference& r, HalfedgeId corner) {
 
 struct NoseFinder {
   const Reference& r;
-  Column<HalfedgeId, Vec3> span;     ///< at the start of the half-edge
-  Column<HalfedgeId, double> ahead;  ///< x of the direction across it
+  Column<HalfedgeId, Vec3> span;     ///< span direction at the start of each half-edge
+  Column<HalfedgeId, double> ahead;  ///< x component of the direction across the span
 
-  /// Returns the fraction of the edge at which a nose crosses it; negative: no crossing.
+  /// Returns the fraction of the edge at which a nose crosses it; negative if no nose does.
   double crossing(HalfedgeId h) const {
     const HalfedgeId a = h, b = next(h);
     if (r.line[h] != k_no_line || !r.topology.twin(h).is_valid()) return -1.0;
@@ -115,7 +115,7 @@ NoseCut cut_noses(const Reference& r, bool is_flat, const RunContext& context) {
   NoseCut cut;
   cut.mesh.points = wall.points;
   cut.mesh.patches = wall.patches;
-  // First vertices that noses pass through, or so near that the noses are moved there; then edges crossed elsewhere.
+  // First come vertices that noses pass through or pass so closely that they are moved there, then edges that noses cross elsewhere.
   Column<VertexId, std::uint8_t> is_on(wall.n_vertices(), 0);
   for (std::size_t i = 0; i < r.topology.n_halfedges(); ++i) {
     const HalfedgeId h(i), o = r.topology.twin(h);
@@ -165,7 +165,7 @@ NoseCut cut_noses(const Reference& r, bool is_flat, const RunContext& context) {
       add(t, a, m, c);
       add(t, m, b, c);
     } else if (n_split == 2) {
-      // The edge a b is whole; m lies on b c, n on c a.
+      // The edge a b is not split; m lies on b c, n on c a.
       const VertexId a = v[whole], b = v[(whole + 1) % 3], c = v[(whole + 2) % 3], m = middle(whole + 1), n = middle(whole + 2);
       add(t, n, m, c);
       if (distance(cut.mesh.points[a], cut.mesh.points[m]) <= distance(cut.mesh.points[b], cut.mesh.points[n])) {
@@ -193,9 +193,9 @@ std::optional<NoseCut> cut_noses_if_asked(const TriMesh& wall, const ReferenceOp
   if (!is_asked) return std::nullopt;
   const Reference reference(wall, reference_options, {}, {}, context);
   NoseCut cut = cut_noses(reference, !options.smooth, context);
-  // The curve between the given vertices may meet another part of the surface; the triangles themselves do not.
+  // The smooth surface between the given vertices may meet another part of the surface. The given triangles do not, so they are used in that case.
   if (options.smooth && find_crossings(cut.mesh, context).total > 0) cut = cut_noses(reference, true, context);
-  // Keeps only the candidates that are noses of wings.
+  // Only the candidates that are noses of wings are kept.
   ReferenceOptions with_all = reference_options;
   with_all.noses = std::move(cut.edges);
   const Reference all(cut.mesh, with_all, {}, {}, context);

@@ -1,7 +1,7 @@
-// Steps: normals of triangles, lines and their corners, smooth pieces, normals at corners of triangles, bulges.
+// Steps: normals of triangles, lines and their corners, smooth pieces, normals at the corners of triangles, bulges.
 //
-// The curved patch is a quadratic Bezier triangle: each edge's middle is moved by one vector that both its triangles share (bulges.cpp), so patches join
-// without gaps. A flat region beside a curved one stays flat (straight_parts.cpp), where point-normal triangles (Vlachos et al. 2001) would make it wavy.
+// The curved patch is a quadratic Bezier triangle. The middle of each edge is moved by a vector that both its triangles share (bulges.cpp), so patches join
+// without gaps. A flat region beside a curved one stays flat (straight_parts.cpp); point-normal triangles (Vlachos et al. 2001) would make it wavy.
 #include "surfmesh/remesh/reference.h"
 
 #include <algorithm>
@@ -17,15 +17,15 @@
 namespace sterna::surfmesh {
 namespace {
 
-/// Relative to the body's length: a triangle with less height has no normal of its own, as files in single precision round by 6e-8.
+/// Relative to the body's length: a triangle with less height has no normal of its own, because files in single precision round by 6e-8.
 constexpr double k_thin_height = 2e-6;
-/// Number of rounds in which triangles without a normal take one from their neighbours: chains of such triangles are short.
+/// Number of rounds in which triangles without a normal take one from their neighbours. Few rounds suffice, because chains of such triangles are short.
 constexpr int k_normal_rounds = 8;
-/// Relative to the feature angle: an edge that bends by at least this fraction is a line as well, if its surroundings bend by less than the second fraction
-/// of its bend.
+/// An edge that bends by at least the first fraction of the feature angle is a line as well, if its surroundings bend by less than the second fraction of its
+/// bend.
 constexpr double k_crease_share = 0.3;
 constexpr double k_crease_contrast = 0.15;
-/// The walk continues behind triangles whose squared distance is up to this factor larger than the smallest one found.
+/// The walk continues from triangles whose squared distance is at most this factor times the smallest one found.
 constexpr double k_walk_slack = 1.3;
 /// Largest number of triangles tested in one walk.
 constexpr std::size_t k_walk_most = 400;
@@ -63,7 +63,7 @@ Column<TriangleId, Vec3> normals_of(const TriMesh& mesh, const Topology& topolog
   return normals;
 }
 
-/// Line edges and, among them, sharp edges; both half-edges of such an edge are marked.
+/// Line edges, and the sharp edges among them. Both half-edges of such an edge are marked.
 struct Marks {
   Column<HalfedgeId, std::uint8_t> is_line, is_sharp;
 };
@@ -86,8 +86,8 @@ Marks mark_edges(const Reference& r, double angle, const RunContext& context) {
   return marks;
 }
 
-/// Marks creases: edges that bend less than a line, but much more than all edges around them, between regions that are flat at that scale. Runs of them
-/// become lines.
+/// Marks creases. A crease bends less than a line, but much more than all edges around it, and lies between regions that are flat at that scale. Runs of
+/// creases become lines.
 void mark_creases(const Reference& r, double angle, Marks& marks, const RunContext& context) {
   const double least = k_crease_share * angle;
   Column<HalfedgeId, std::uint8_t> is_crease(marks.is_line.size(), 0);
@@ -122,7 +122,7 @@ struct LineFinder {
   Reference& r;
   const Marks& marks;
   double angle, scale;
-  std::vector<std::vector<HalfedgeId>> star;  ///< for each vertex; one half-edge of each line edge, by id
+  std::vector<std::vector<HalfedgeId>> star;  ///< line edges of each vertex: one half-edge of each edge, sorted by id
   Column<HalfedgeId, std::uint8_t> is_used;
 
   LineFinder(Reference& reference, const Marks& m, const ReferenceOptions& options)
@@ -138,7 +138,7 @@ struct LineFinder {
   VertexId other_end(HalfedgeId h, VertexId v) const { return r.topology.from(h) == v ? r.topology.to(h) : r.topology.from(h); }
   const Point& at(VertexId v) const { return r.mesh->points[v]; }
 
-  /// Returns the location reached from v along h, over vertices with two line edges, at a distance of `scale`.
+  /// Follows the line from v along h through vertices that have exactly two line edges. Returns the location at a distance of `scale` along this path.
   Point look_along(VertexId v, HalfedgeId h) const {
     const VertexId start = v;
     double left = scale;
@@ -164,7 +164,7 @@ struct LineFinder {
       if (star[v].size() != 2) r.is_corner[VertexId(v)] = 1;
       else turns[v] = turn(VertexId(v));
     }
-    // In a bend only the vertex with the largest turn within the scale is a corner.
+    // In a bend, only the vertex with the largest turn within the scale is a corner.
     for (std::size_t v = 0; v < star.size(); ++v) {
       if (turns[v] <= angle) continue;
       bool is_most = true;
@@ -185,7 +185,7 @@ struct LineFinder {
     }
   }
 
-  /// Returns the vertices from v along h up to the next corner, or around.
+  /// Returns the vertices from v along h up to the next corner, or once around a closed run.
   std::vector<VertexId> trace(VertexId v, HalfedgeId h) {
     std::vector<VertexId> way{v};
     while (true) {
@@ -221,7 +221,7 @@ struct LineFinder {
     r.lines.push_back(std::move(line));
   }
 
-  /// Adds a line. Closed runs are cut in three by length, so that a line has two different ends.
+  /// Adds a line. Closed runs are cut into three parts by length, so that a line has two different ends.
   void add(const std::vector<VertexId>& way) {
     if (way.front() != way.back()) return add_line(way);
     double length = 0.0;
@@ -277,7 +277,7 @@ void find_regions(Reference& r) {
   }
 }
 
-/// Computes angle-weighted normals over the triangles around a vertex that no sharp edge separates.
+/// Computes normals at vertices, weighted by angle, over the triangles around the vertex that no sharp edge separates.
 void find_normals(Reference& r, const Marks& marks, const RunContext& context) {
   const TriMesh& mesh = *r.mesh;
   const auto weighted = [&](HalfedgeId h) {
@@ -288,7 +288,7 @@ void find_normals(Reference& r, const Marks& marks, const RunContext& context) {
     const HalfedgeId first(i);
     Vec3 sum = weighted(first);
     bool is_around = false;
-    // Counter-clockwise: over the edge that ends at the vertex.
+    // Counter-clockwise means across the edge that ends at the vertex.
     for (HalfedgeId h = first;;) {
       const HalfedgeId in = previous(h);
       if (marks.is_sharp[in] != 0) break;
@@ -365,7 +365,7 @@ Foot Reference::nearest(const Point& p, TriangleId start) const {
   look(start);
   std::size_t best = 0;
   std::size_t done = 0;
-  // The walk expands each visited triangle over its edges once, if it is near enough.
+  // The walk expands each visited triangle across its edges once, if the triangle is near enough.
   for (; done < seen.size() && seen.size() < k_walk_most; ++done) {
     if (seen[done].distance2 > k_walk_slack * seen[best].distance2) continue;
     for (int k = 0; k < 3; ++k) {

@@ -88,7 +88,7 @@ SurfaceDistance surface_distance(const TriMesh& from, const TriMesh& to, bool is
         Part part;
         TriangleId last;
         const auto add = [&](const Point& p, double edge) {
-          // The nearest triangle of the previous query bounds the distance.
+          // The nearest triangle of the previous query gives an upper limit for the distance.
           NearestHit hit;
           if (last.is_valid()) hit = tree.nearest(p, distance(p, nearest_on_triangle(p, corners(to, last))) * (1.0 + 1e-9));
           if (!hit.triangle.is_valid()) hit = tree.nearest(p);
@@ -100,8 +100,8 @@ SurfaceDistance surface_distance(const TriMesh& from, const TriMesh& to, bool is
             add(from.points[VertexId(i)], 0.0);
             continue;
           }
-          // Middles of edges once, with the triangle that has them ascending; on an open boundary possibly not at all, where they are middles of the input's
-          // edges.
+          // The middle of each edge is visited once, in the triangle in which its vertices ascend. Edges of an open boundary may be left out; their middles are
+          // also middles of edges of the input.
           const TriangleVertices& v = from.triangles[TriangleId(i - n_points)];
           const auto [a, b, c] = corners(from, TriangleId(i - n_points));
           const double edge = longest_edge(from, TriangleId(i - n_points));

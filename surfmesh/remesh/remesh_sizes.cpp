@@ -14,16 +14,16 @@
 namespace sterna::surfmesh {
 namespace {
 
-/// Longest edge of a connected piece, relative to the square root of its area: 15 % of the chord of a slender wing, 2 % of an aircraft's length.
+/// Longest edge of a connected piece, relative to the square root of its area. This is 15 % of the chord of a slender wing, or 2 % of an aircraft's length.
 constexpr double k_max_edge_of_area = 0.05;
-/// Lower limit relative to its length: pieces as thin as a line have no area.
+/// Lower limit of the longest edge, relative to the length of the piece. It is needed because pieces as thin as a line have no area.
 constexpr double k_max_edge_of_length = 1e-3;
 constexpr double k_min_edge_of_max = 0.02;
-/// Relative to min_edge: lower limit where chord_error needs shorter edges.
+/// Lower limit of sizes where chord_error requires shorter edges, relative to min_edge.
 constexpr double k_least_for_chord = 0.25;
-/// Surfaces face each other if their normals are opposed within 30 degrees.
+/// Two surfaces face each other if their normals are opposite within 30 degrees.
 constexpr double k_opposed_cosine = 0.866;
-/// Hits nearer than this fraction of the reach are the surface itself.
+/// Hits nearer than this fraction of the reach are on the same surface and are ignored.
 constexpr double k_ray_start = 1e-9;
 
 double or_else(double value, double other) { return is_automatic(value) ? other : value; }
@@ -76,7 +76,7 @@ double size_of_curvature(double curvature, const SurfaceLimits& l) {
   return std::min(size, l.max_edge);
 }
 
-/// Returns the curvature (1 / m) of the arc over an edge: the smaller of those given by the normals at its ends, zero if they differ in sign.
+/// Returns the curvature (1/m) of the arc over an edge: the smaller of those that the normals at its ends give; zero if they differ in sign.
 double edge_curvature(const Reference& r, HalfedgeId h) {
   const Point &a = r.mesh->points[r.topology.from(h)], &b = r.mesh->points[r.topology.to(h)];
   const double length = distance(a, b);
@@ -86,7 +86,8 @@ double edge_curvature(const Reference& r, HalfedgeId h) {
   return rise_a * rise_b > 0.0 ? 2.0 * std::min(std::abs(rise_a), std::abs(rise_b)) / length : 0.0;
 }
 
-/// Returns the curvature (1 / m) from the bend of an edge over the adjacent triangles, if they are no narrower than edges become.
+/// Returns the curvature (1/m) that follows from the bend at an edge, over the widths of the adjacent triangles. Triangles narrower than min_edge give no
+/// curvature.
 double bend_curvature(const Reference& r, HalfedgeId h, double min_edge) {
   const HalfedgeId o = r.topology.twin(h);
   double height = 0.0;
@@ -237,7 +238,7 @@ double RemeshSizes::operator()(const Point& p, TriangleId t) const {
   double size = cap_[t];
   const TriangleVertices& v = r_.mesh->triangles[t];
   for (const VertexId k : v) size = std::min(size, at_[k] + slope_ * distance(p, r_.mesh->points[k]));
-  // Sizes may grow between vertices far apart, but a curved triangle is curved there as well.
+  // Sizes may grow between vertices that are far apart, but a curved triangle limits the size all over.
   if (own_[t] < size) {
     const auto [a, b, c] = corners(*r_.mesh, t);
     const Vec3 n = cross(b - a, c - a);

@@ -1,4 +1,4 @@
-// Target edge length on a reference: stored at its vertices, growing with the distance along its edges.
+// Target edge length on a reference. It is stored at the vertices and grows with the distance along edges.
 #pragma once
 
 #include <optional>
@@ -19,36 +19,37 @@ struct SurfaceLimits {
   double chord_error;         ///< m
 };
 
-/// Limits of each triangle: the automatic longest edge is computed per connected piece.
+/// Limits of each triangle. The automatic longest edge is computed for each connected piece.
 class SurfaceLimitTable {
  public:
-  /// The wall must outlive it.
+  /// The wall must outlive this object.
   SurfaceLimitTable(const TriMesh& wall, const Topology& topology, const RemeshOptions& options, std::span<const PatchSurfaceOptions> rules);
   const SurfaceLimits& of(TriangleId t) const { return limits_[pieces_.component[t]][wall_.triangle_patch[t].index()]; }
-  /// Returns the shortest target edge possible anywhere, m.
+  /// Returns the shortest target edge in metres that is possible anywhere.
   double least() const;
 
  private:
   const TriMesh& wall_;
   Components pieces_;
-  std::vector<std::vector<SurfaceLimits>> limits_;  ///< for each piece and each patch
+  std::vector<std::vector<SurfaceLimits>> limits_;  ///< limits of each patch, by piece
 };
 
 class RemeshSizes {
  public:
-  /// Sizes required by options, patches, curvature, gaps and `asked`. The reference must outlive the object.
-  /// \throws Error(bad_argument) as remesh_surface
+  /// Computes the sizes required by options, patches, curvature, gaps and `asked`. The reference must outlive this object.
+  /// \throws Error(bad_argument) like remesh_surface
   RemeshSizes(const Reference& reference, const RemeshOptions& options, std::span<const PatchSurfaceOptions> patches, const SpaceSizes& asked,
               const RunContext& context);
 
-  /// Returns the size in metres at a point of (or near) a triangle of the reference. Thread-safe, except for a user function (is_serial).
+  /// Returns the size in metres at a point on or near a triangle of the reference. Thread-safe, unless there is a user function (is_serial).
   double operator()(const Point& p, TriangleId t) const;
-  /// Recomputes all sizes, ignoring curvature at these vertices of the reference because the rows of a leading edge determine the size there. Empty: nowhere.
+  /// Recomputes all sizes without the curvature at the covered vertices of the reference, because the rows of a leading edge determine the size there. Empty:
+  /// no vertex is covered.
   void cover(const Column<VertexId, std::uint8_t>& covered, const RunContext& context);
   /// Lowers the size at a location; carry() then propagates it.
   void lower(TriangleId t, const Point& p, double size);
   void carry();
-  /// Sets sizes at locations in space, which grow with the distance in space. Replaces those of the previous call.
+  /// Sets sizes at locations in space. They grow with the distance in space, and replace those of the previous call.
   void ask_at(std::span<const SizeSite> sites, const RunContext& context);
   bool is_serial() const { return static_cast<bool>(asked_.function); }
   double min_edge(TriangleId t) const { return min_edge_[t]; }
@@ -64,12 +65,12 @@ class RemeshSizes {
   std::vector<PatchSurfaceOptions> patches_;
   SpaceSizes asked_;
   double refinement_ = 1.0, slope_ = 0.2, largest_ = 0.0;
-  Column<TriangleId, double> cap_, min_edge_, own_;  ///< own: required by the curvature of the triangle's edges
+  Column<TriangleId, double> cap_, min_edge_, own_;  ///< own: size required by the curvature of the triangle's edges
   Column<VertexId, double> at_;
   std::optional<SizeSites> sites_;
 };
 
-/// Returns the shortest edge that options require anywhere (m), before there are sizes: the length over which turns of lines are measured.
+/// Returns the shortest edge in metres that options require anywhere. It is known before the sizes, and is the length over which turns of lines are measured.
 double least_edge(const TriMesh& wall, const RemeshOptions& options, std::span<const PatchSurfaceOptions> patches, const RunContext& context);
 
 }  // namespace sterna::surfmesh

@@ -1,5 +1,5 @@
-// Steps of a round: the reference, sizes, local operations on the given triangles until edges have their target length, the exact proof. Where triangles
-// cross, another round re-meshes those regions flat and finer; later rounds keep the given triangles there.
+// Each round has these steps: the reference; sizes; local operations on the given triangles until edges have their target length; the exact test for crossings.
+// Where triangles cross, another round re-meshes those regions with flat and finer triangles. Later rounds keep the given triangles there.
 #include "surfmesh/remesh/remesh_surface.h"
 
 #include <algorithm>
@@ -30,34 +30,36 @@ constexpr std::string_view k_attempted = "remeshing a surface";
 // Relative to the target length: shorter edges are collapsed, longer ones are halved (Botsch & Kobbelt: 4/5 and 4/3).
 constexpr double k_short = 0.72, k_long = 1.38;
 constexpr int k_passes = 5;
-/// After this pass strips between lines are searched.
+/// Strips between lines are searched after this pass.
 constexpr int k_strip_pass = 1;
 constexpr int k_last_smoothings = 6;
-/// Triangles with mean ratios below these are improved at the end, one value after another: 0.75 is a smallest angle of about 30 degrees.
+/// Triangles with a mean ratio below these values are improved at the end, one value after another. A mean ratio of 0.75 corresponds to a smallest angle of
+/// about 30 degrees.
 constexpr std::array<double, 7> k_improve = {0.5, 0.65, 0.7, 0.75, 0.75, 0.75, 0.75};
-/// In that phase moves leave no triangle that was better below this value.
+/// In that phase no move may bring a triangle that was better below this value.
 constexpr double k_last_floor = 0.7;
-/// Relative to min_edge: lower limit of sizes from narrow strips.
+/// Lower limit of sizes from narrow strips, relative to min_edge.
 constexpr double k_least_in_strips = 0.2;
-/// Rounds in which crossings are treated with flatter and finer triangles; afterwards given ones are kept.
+/// Number of rounds in which crossings are treated with flatter and finer triangles. In later rounds the given triangles are kept.
 constexpr int k_fine_rounds = 4;
 constexpr int k_most_rounds = 8;
-/// Refinement must reduce the crossings to at most this fraction, or it is no cure: the surfaces are nearer to each other than any edge length.
+/// Refinement must reduce the number of crossings to at most this fraction. Otherwise it does not help, because the surfaces are nearer to each other than any
+/// edge length.
 constexpr double k_fewer = 0.5;
 constexpr double k_finer = 0.5;
-/// Largest number of crossing pairs per triangle: with more, rounds would only add triangles.
+/// Largest number of crossing pairs per triangle. With more pairs, further rounds would only add triangles.
 constexpr std::int64_t k_most_crossings = 1;
 /// Largest ratio of triangles made to triangles predicted.
 constexpr double k_foretold_share = 1.5;
-/// The ratio may be larger temporarily while edges are halved, before that limit is tested.
+/// While edges are halved the ratio may temporarily be this large. Afterwards the limit above is tested.
 constexpr double k_halving_share = 3.0;
-/// Fraction of the free memory that may be used, and the memory that halving needs per triangle, including vertices and lists.
+/// Fraction of the free memory that may be used, and bytes per triangle that halving needs, including vertices and lists.
 constexpr double k_memory_share = 0.5, k_bytes_of_triangle = 200.0;
 constexpr std::string_view k_fewer_triangles_hint = "a larger max_edge, min_edge or curvature_angle; smooth = false if the input triangles are very thin";
 constexpr double k_half_turn = std::numbers::pi;
 constexpr int k_angle_digits = 3, k_length_digits = 3;
 
-/// Findings of the previous rounds.
+/// Problems found in the previous rounds.
 struct Trouble {
   Column<TriangleId, std::uint8_t> flat, kept;
   std::vector<std::pair<TriangleId, double>> sizes;
@@ -97,13 +99,13 @@ void narrow_strips(const Remesher& remesher, const RemeshOptions& options, Remes
   sizes.carry();
 }
 
-/// Grows rows, and sizes that increase from their outer ends.
+/// Grows rows, and sets sizes that increase from the outer ends of the rows.
 void grow_rows(Remesher& remesher, const Reference& reference, const RowLines& rows, const RemeshOptions& options, RemeshSizes& sizes,
                const RunContext& context) {
   if (rows.lines.empty()) return;
   remesher.grow_rows(rows.lines);
   if (const std::vector<RowReach> reaches = remesher.nose_reaches(); !reaches.empty()) {
-    // Curvature counts again where rows did not reach as far as predicted.
+    // Where rows did not reach as far as predicted, the curvature determines sizes again.
     sizes.cover(covered_by_noses(reference, reaches, context), context);
     sizes.ask_at(remesher.row_ends(), context);
     narrow_strips(remesher, options, sizes);
@@ -121,7 +123,7 @@ void grow_rows(Remesher& remesher, const Reference& reference, const RowLines& r
 void run_passes(Remesher& remesher, const Reference& reference, const RemeshOptions& options, const RowLines& rows, RemeshSizes& sizes,
                 const RunContext& context) {
   for (int pass = 0; pass < k_passes; ++pass) {
-    // The first pass removes most edges. It is repeated, because the neighbours of a collapsed edge are blocked in the same pass.
+    // The first pass removes most edges. It is repeated, because the neighbours of a collapsed edge cannot be collapsed in the same pass.
     for (int again = 0; remesher.collapse_short(k_short, true) > 0 && again < (pass == 0 ? 8 : 1); ++again) {
     }
     remesher.flip_edges();
@@ -189,7 +191,7 @@ void require_worth(const NeedleCount& needles, double n_triangles, const char* w
   throw Error(std::move(info));
 }
 
-/// Counts sliver triangles on edges between two corners of lines, which stay: triangles there are as long as the surrounding sizes.
+/// Counts sliver triangles on edges between two corners of lines. Such edges stay, and the triangles on them are as long as the surrounding sizes.
 NeedleCount forced_needles(const Reference& reference, const RemeshSizes& sizes) {
   const TriMesh& mesh = *reference.mesh;
   NeedleCount forced{.n = 0, .least_angle = k_half_turn};
@@ -209,7 +211,7 @@ NeedleCount forced_needles(const Reference& reference, const RemeshSizes& sizes)
   return forced;
 }
 
-/// Returns the area fraction of the given triangles that are turned from their own smooth surface, because of bends at edges.
+/// Returns the fraction of the area of given triangles that are turned away from their own smooth surface, because of bends at edges.
 double turned_share(const Reference& r, double angle) {
   const double cosine = std::cos(angle);
   double turned = 0.0, all = 0.0;
@@ -319,7 +321,7 @@ RemeshResult remesh_surface(const TriMesh& given, const RemeshOptions& options, 
       trouble.flat.assign(wall.n_triangles(), 0);
       trouble.kept.assign(wall.n_triangles(), 0);
     }
-    // Kept triangles can force others to cross; the complete input has no self-intersection.
+    // Kept triangles can force other triangles to cross. If all given triangles are kept, there is no self-intersection.
     if (round + 1 == k_most_rounds) trouble.kept.assign(wall.n_triangles(), 1);
     if (is_fine && (round > k_fine_rounds || static_cast<double>(pairs.total) > k_fewer * static_cast<double>(n_crossing))) {
       is_fine = false;

@@ -1,5 +1,5 @@
-// Re-triangulation of a triangulated surface: sizes by curvature as in surface_mesh on CAD, sharp edges and patches kept, vertices on a smooth reconstruction
-// of the input (docs/method/surface.md, "Sliver triangles": the third repair).
+// Re-triangulates a triangulated surface. Sizes follow the curvature as in surface_mesh on CAD models, sharp edges and patches are kept, and vertices lie on a
+// smooth reconstruction of the input (docs/method/surface.md, "Sliver triangles": the third repair).
 #pragma once
 
 #include <array>
@@ -17,7 +17,7 @@
 
 namespace sterna::surfmesh {
 
-/// Names and meanings are those of SurfaceMeshOptions; its options for wings and CAD faces do not apply to a triangulation.
+/// Names and meanings are those of SurfaceMeshOptions. Its options for wings and CAD faces do not apply to a triangulation.
 struct RemeshOptions {
   double max_edge = k_automatic;
   double min_edge = k_automatic;
@@ -43,46 +43,47 @@ struct RemeshOptions {
 struct RowReport {
   std::int64_t n_triangles = 0;
   std::int64_t n_columns = 0;      ///< locations of lines on which rows stand
-  std::int64_t n_without = 0;      ///< locations of those lines without rows
-  double max_stretch = 0.0;        ///< largest length along : length across of their cells
+  std::int64_t n_without = 0;      ///< locations of those lines that have no rows
+  double max_stretch = 0.0;        ///< largest aspect ratio of their cells: length along the line over length across it
   double max_growth = 0.0;         ///< largest ratio of consecutive row heights
   std::vector<std::string> notes;  ///< requirements that could not be met
 };
 
-/// Distance of one surface from another: sampled at vertices, middles of edges and of triangles.
+/// Distance of one surface from another, sampled at the vertices, and at the middles of edges and triangles.
 struct SurfaceDistance {
   double max = 0.0;      ///< m
-  double mean = 0.0;     ///< m, over the samples
+  double mean = 0.0;     ///< m, mean over the samples
   Point place{};         ///< location of the largest distance
   double of_edge = 0.0;  ///< largest ratio of the distance to the longest edge of the new triangle there
 };
 
 struct RemeshReport {
   std::int64_t n_triangles_before = 0, n_triangles = 0;
-  std::int64_t n_lines = 0;                    ///< sharp edges, patch borders and open boundaries: pieces between corners
-  std::int64_t n_corners = 0;                  ///< ends of these, which do not move
+  std::int64_t n_lines = 0;                    ///< number of pieces between corners of sharp edges, patch borders and open boundaries
+  std::int64_t n_corners = 0;                  ///< number of ends of these lines; they do not move
   double least_size = 0.0;                     ///< m, smallest target size anywhere
   double max_edge = 0.0;                       ///< m, the largest target size
   double min_angle = 0.0;                      ///< rad
   double max_angle = 0.0;                      ///< rad
-  double angle_quantile_1 = 0.0;               ///< rad: 1 % of the triangles have a smaller smallest angle
-  double mean_radius_ratio = 0.0;              ///< 2 r / R, 1 = equilateral: by area
-  std::array<std::int64_t, 6> least_angles{};  ///< triangles by their smallest angle: below 10 degrees, below 20, ... up to 60
-  std::int64_t n_needles = 0;                  ///< sliver triangles: with an angle below k_needle_angle
-  std::vector<ErrorPlace> needles;             ///< the worst of these, at most k_max_places, and the features that force them
+  double angle_quantile_1 = 0.0;               ///< rad: 1 % of the triangles have their smallest angle below this value
+  double mean_radius_ratio = 0.0;              ///< mean weighted by area of 2 r / R, which is 1 for an equilateral triangle
+  std::array<std::int64_t, 6> least_angles{};  ///< numbers of triangles by their smallest angle: below 10 degrees, below 20, and so on up to 60
+  std::int64_t n_needles = 0;                  ///< number of sliver triangles, with an angle below k_needle_angle
+  std::vector<ErrorPlace> needles;             ///< the worst sliver triangles, at most k_max_places, with the features that force them
   SurfaceDistance to_input;                    ///< from the new surface to the given one
-  SurfaceDistance from_input;                  ///< from the given one to the new
-  double turned_before = 0.0, turned = 0.0;    ///< fractions of the area of triangles turned by more than k_turned_angle from the smooth surface at a corner
-  double length = 0.0;                         ///< m, body length
-  std::int64_t n_kept = 0;                     ///< triangles kept unchanged, because new ones would cross
-  int n_rounds = 1;                            ///< rounds of remeshing; above 1 if triangles crossed
+  SurfaceDistance from_input;                  ///< from the given surface to the new one
+  double turned_before = 0.0, turned = 0.0;  ///< fractions of the area of triangles turned by more than k_turned_angle from the smooth surface at a corner, of
+                                             ///< the input and of the result
+  double length = 0.0;                       ///< m, body length
+  std::int64_t n_kept = 0;                   ///< number of triangles kept unchanged, because new ones would cross
+  int n_rounds = 1;                          ///< rounds of remeshing; above 1 if triangles crossed
   RowReport rows;
 };
 
-/// Triangles with a smaller angle are sliver triangles (docs/method/surface.md, "Sliver triangles"), rad.
+/// Rad: triangles with a smaller angle are sliver triangles (docs/method/surface.md, "Sliver triangles").
 inline constexpr double k_needle_angle = 8.0 * std::numbers::pi / 180.0;
 
-/// Triangles turned by more than this from the smooth surface do not represent it, rad.
+/// Rad: triangles turned from the smooth surface by more than this angle do not represent it.
 inline constexpr double k_turned_angle = 10.0 * std::numbers::pi / 180.0;
 
 struct RemeshResult {
@@ -90,17 +91,18 @@ struct RemeshResult {
   RemeshReport report;
 };
 
-/// Remeshes a wall. Edges that bend by more than feature_angle, borders of patches and open boundaries are lines: their corners stay, vertices between slide
-/// along them. All other vertices lie on the input or, with `smooth`, on quadratic patches over its triangles. The bulge of such a patch is the smaller one
-/// of those given by the normals at both ends of each edge, so that flat regions stay flat. No vertex leaves its smooth piece of surface for another one,
-/// however near.
-/// \pre manifold, oriented, without self-intersection; closed, or open along boundaries, which stay
-/// \post manifold, closed if the input was; no two triangles cross (exact); no patch loses all its triangles; bitwise the same for any number of threads
-/// \param patches rules for patches by name, the last match counts; used: max_edge, min_edge, curvature_angle, chord_error and rows at leading and trailing
-/// edges
-/// \throws Error(bad_argument) for sizes that are not positive, a rule that no patch's name matches or that sets trailing_edge_cells or factors;
-/// Error(non_manifold_surface); Error(self_intersection) if the input crosses itself or most of the result does; Error(overflow) beyond max_triangles, before
-/// the work; Error(cancelled)
+/// Remeshes a wall. Edges that bend by more than feature_angle, borders of patches and open boundaries are lines. The corners of lines stay, and vertices
+/// between corners move along the lines only. All other vertices lie on the input or, with `smooth`, on quadratic patches over its triangles. The bulge of such
+/// a patch is the smaller of the two that the normals at the ends of each edge give, so that flat regions stay flat. No vertex leaves its smooth piece of
+/// surface for another piece, however near that is.
+/// \pre The wall is manifold, oriented and without self-intersection. It is closed, or open along boundaries; boundaries stay.
+/// \post The result is manifold, and closed if the input was. No two triangles cross (exact test). No patch loses all its triangles. The result is bitwise the
+/// same for any number of threads.
+/// \param patches rules for patches by name; the last match is used. Used options: max_edge, min_edge, curvature_angle, chord_error, and rows at leading and
+/// trailing edges
+/// \throws Error(bad_argument) for sizes that are not positive, a rule that matches no patch or sets trailing_edge_cells or factors;
+/// Error(non_manifold_surface); Error(self_intersection) if the input crosses itself or most of the result does; Error(overflow) for more than max_triangles,
+/// before the work; Error(cancelled)
 RemeshResult remesh_surface(const TriMesh& wall, const RemeshOptions& options, std::span<const PatchSurfaceOptions> patches, const SpaceSizes& asked,
                             const RunContext& context);
 
@@ -109,17 +111,17 @@ std::string to_text(const RemeshReport& report);
 
 /// Sliver measures of a surface.
 struct NeedleCount {
-  std::int64_t n = 0;        ///< triangles with an angle below the limit
-  double least_angle = 0.0;  ///< rad; 0 for a surface without triangles
+  std::int64_t n = 0;        ///< number of triangles with an angle below the limit
+  double least_angle = 0.0;  ///< rad, smallest angle; 0 for a surface without triangles
   Point place{};             ///< middle of the triangle with the smallest angle
 };
 /// \param limit rad
 NeedleCount count_needles(const TriMesh& mesh, double limit = k_needle_angle);
-/// Returns true if layers and tetrahedra on a repaired or wrapped surface would miss gates: an angle is below k_worst_needle_angle, or more than the fraction
-/// k_needle_share of the triangles has one below k_needle_angle.
+/// Returns true if layers and tetrahedra on a repaired or wrapped surface would fail quality gates. That is so if an angle is below k_worst_needle_angle, or if
+/// more than the fraction k_needle_share of the triangles have an angle below k_needle_angle.
 bool is_remesh_advised(const NeedleCount& needles, std::size_t n_triangles);
 
-/// Sliver tetrahedra and prisms below this angle miss the gates for dihedral angles at any location, rad.
+/// Rad: tetrahedra and prisms on triangles with a smaller angle fail the gates for dihedral angles anywhere.
 inline constexpr double k_worst_needle_angle = 1.0 * std::numbers::pi / 180.0;
 inline constexpr double k_needle_share = 0.005;
 
@@ -154,7 +156,7 @@ struct Schema<surfmesh::RemeshOptions> {
                .member = &O::chord_error,
                .unit = Unit::metre,
                .min = 1e-9,
-               .help = "largest distance between the middle of an edge and the surface, from the curvature",
+               .help = "largest distance between the midpoint of an edge and the curved surface; edges are made short enough for this, by the curvature",
                .automatic = "no limit"},
       Field<O>{.name = "growth", .member = &O::growth, .min = 1.01, .max = 3.0, .help = "largest ratio of the lengths of consecutive edges"},
       Field<O>{.name = "refinement",

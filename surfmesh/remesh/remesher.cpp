@@ -1,7 +1,8 @@
 // Remesher: locations of vertices, quality of triangles, and the operations that change connectivity.
 //
-// Based on: M. Botsch, L. Kobbelt, "A remeshing approach to multiresolution modeling" (2004), for the loop of splits, collapses, flips and tangential moves;
-// new are the order by length, the sizes, the lines, and that each vertex keeps its location on the reference and walks from there.
+// Based on: M. Botsch, L. Kobbelt, "A remeshing approach to multiresolution modeling" (2004), for the loop of splits, collapses, flips and tangential moves.
+// Added here: the order by length, the sizes, the lines, and that each vertex keeps its location on the reference and searches the next one by a walk from
+// there.
 #include "surfmesh/remesh/remesher.h"
 
 #include <algorithm>
@@ -19,29 +20,29 @@ namespace {
 
 /// A triangle turned from the reference's normals by more than the angle with this cosine counts as inverted.
 constexpr double k_fold_cosine = 0.3;
-/// 4 sqrt(3): the mean ratio 4 sqrt(3) A / sum l^2 is 1 for an equilateral triangle.
+/// 4 sqrt(3): with this factor the mean ratio 4 sqrt(3) A / sum l^2 is 1 for an equilateral triangle.
 constexpr double k_mean_ratio = 6.928203230275509;
-/// A collapse whose triangles are better than this is accepted without comparison to the quality before.
+/// A collapse is accepted without comparison to the quality before if its triangles are better than this.
 constexpr double k_good_enough = 0.4;
-/// Change of the mean ratio: flips with a smaller gain are skipped.
+/// Flips that improve the mean ratio by less than this are skipped.
 constexpr double k_flip_gain = 1e-6;
-/// Two triangles better than this are not flipped, because neither would improve.
+/// Two triangles that are better than this are not flipped, because neither would improve.
 constexpr double k_flip_below = 0.88;
-/// Lower limit of the quality after a flip for the number of neighbours: smoothing improves such triangles.
+/// Lower limit for the quality of triangles after a flip that improves the number of neighbours. Smoothing improves such triangles later.
 constexpr double k_regular_floor = 0.45;
 /// Quality of an inverted triangle, worse than any other.
 constexpr double k_folded = -1.0;
-/// Relative to the body's length: open boundaries whose coordinates differ by less lie in one plane.
+/// Relative to the body's length: an open boundary lies in a plane if its coordinates differ by less than this.
 constexpr double k_rim_flat = 1e-5;
-/// Rounds of halving: at most 2^24 parts.
+/// Largest number of halving rounds, which gives at most 2^24 parts.
 constexpr int k_split_rounds = 24;
-/// Relative to an edge's length: halves outside this range mean that its middle is held at a line or was projected elsewhere.
+/// Range of the length of a half, relative to the edge. Outside of it, the middle of the edge is held at a line or was projected to another location.
 constexpr double k_least_half = 0.2, k_most_half = 0.85;
-/// Relative to the quality before: halves of any triangle have more, unless the middle is held at a line.
+/// Smallest quality after a split, relative to the quality before. Halves of any triangle are better, unless the middle is held at a line.
 constexpr double k_least_after_split = 0.1;
 /// An edge that a collapse lengthens by less than this factor counts as unchanged.
 constexpr double k_no_longer = 1.001;
-/// Limit after a collapse: edges are rather kept longer than they should be than split again.
+/// Largest length of an edge after a collapse, relative to the target. Longer edges would only be split again.
 constexpr double k_longest_after_collapse = 1.35;
 
 }  // namespace
@@ -88,9 +89,9 @@ void Remesher::refresh_sizes() {
   }
 }
 
-/// Returns the reference's normal at a vertex of a triangle that is in the smooth piece of `hint` and lies in the direction of the point `towards`. If both
-/// sides of a line are in that piece (a sharp trailing edge: the piece continues around the nose), they are hard to distinguish from the line. Then `seen`, a
-/// normal elsewhere on the triangle, selects the side; zero: not known.
+/// Returns the reference's normal at a vertex of a triangle, in the smooth piece of `hint` and in the direction of the point `towards`. If both sides of a line
+/// belong to that piece (a sharp trailing edge whose piece continues around the nose), the direction alone hardly distinguishes them. Then `seen`, a normal
+/// elsewhere on the triangle, selects the side; zero: not known.
 Vec3 Remesher::normal_at(std::uint32_t number, TriangleId hint, const Point& towards, const Vec3& seen) const {
   const WorkVertex& v = mesh_.vertices[number];
   if (v.kind == VertexKind::face) return v.normal;
@@ -120,7 +121,7 @@ Vec3 Remesher::normal_at(std::uint32_t number, TriangleId hint, const Point& tow
     if (r_.region[triangle_of(h)] != region) continue;
     const Vec3 along =
         normalized(normalized(r_.mesh->points[r_.topology.to(h)] - v.point) + normalized(r_.mesh->points[r_.topology.from(previous(h))] - v.point));
-    // Normals of the opposite side are ranked after all normals of this side.
+    // Normals of the opposite side rank below all normals of this side.
     const double cosine = dot(way, along) - (dot(r_.normals[h], seen) < 0.0 ? 2.0 : 0.0);
     if (cosine > largest) {
       largest = cosine;
@@ -138,7 +139,7 @@ bool Remesher::is_at_rim(std::uint32_t number) const {
   return std::any_of(out.begin(), out.end(), [&](HalfedgeId h) { return !r_.topology.twin(h).is_valid() || !r_.topology.twin(previous(h)).is_valid(); });
 }
 
-/// Returns true for triangles in the plane of an open boundary: in a half model such a triangle would be a wall there, with its mirror image behind it.
+/// Returns true for triangles in the plane of an open boundary. In a half model such a triangle would be a wall there, coincident with its mirror image.
 bool Remesher::lies_in_rim(const std::array<std::uint32_t, 3>& v, const std::array<Point, 3>& p) const {
   if (is_rim_.empty()) return false;
   bool is_flat = false;
@@ -149,7 +150,7 @@ bool Remesher::lies_in_rim(const std::array<std::uint32_t, 3>& v, const std::arr
   return is_flat && is_at_rim(v[0]) && is_at_rim(v[1]) && is_at_rim(v[2]);
 }
 
-/// Returns the mean ratio; k_folded for a triangle inverted against the reference, or in the plane of an open boundary.
+/// Returns the mean ratio. Returns k_folded for a triangle that is inverted against the reference, or that lies in the plane of an open boundary.
 double Remesher::quality_of(const std::array<std::uint32_t, 3>& v, const std::array<Point, 3>& p, TriangleId hint) const {
   const Vec3 n = cross(p[1] - p[0], p[2] - p[0]);
   const double area = norm(n);
@@ -194,7 +195,7 @@ double Remesher::fan_quality(std::uint32_t v) const {
   return worst;
 }
 
-/// Recomputes the quality; returns any value less than `floor` if the quality is less.
+/// Recomputes the quality. If it is below `floor`, any value below `floor` may be returned.
 double Remesher::fan_quality_now(std::uint32_t v, double floor) const {
   double worst = 1.0;
   mesh_.for_out(v, [&](std::uint32_t h) {
@@ -256,8 +257,8 @@ WorkVertex Remesher::middle(std::uint32_t h) const {
 
 // ---- splits ------------------------------------------------------------------------------------------------------------------------------
 
-/// For an edge between two vertices of one line that is not part of it: returns true if its middle is off the line, so that no triangle lies flat on the
-/// line.
+/// Applies to an edge between two vertices of one line that is not part of the line. Returns true if its middle is not on the line, so that no triangle lies
+/// flat on the line.
 bool Remesher::is_split_good(std::uint32_t h, std::uint32_t m) const {
   const WorkVertex &first = mesh_.vertices[mesh_.from(h)], &last = mesh_.vertices[mesh_.to(h)];
   const auto is_end = [&](const WorkVertex& corner, std::int32_t line) {
@@ -295,7 +296,7 @@ std::int64_t Remesher::split_long(double most, std::int64_t max_triangles) {
       if (n_triangles_now >= max_triangles) return n + done;
       if (!(length_ratio(h) > most)) continue;
       const WorkVertex v = middle(h);
-      // On a face the middle may be held at a line, near the edge's end.
+      // On a face, the middle may be held at a line near the edge's end.
       const double length = distance(mesh_.at(mesh_.from(h)), mesh_.at(mesh_.to(h)));
       const auto [near, far] = std::minmax({distance(v.point, mesh_.at(mesh_.from(h))), distance(v.point, mesh_.at(mesh_.to(h)))});
       if (near < k_least_half * length || far > k_most_half * length) continue;
@@ -331,7 +332,7 @@ std::pair<Point, double> Remesher::shortest_to_halve(double most) const {
 
 // ---- collapses ---------------------------------------------------------------------------------------------------------------------------
 
-/// Returns true if the start vertex of h may be merged into its end: kinds, lines, and the link condition.
+/// Returns true if the start vertex of h may be merged into its end vertex. Tests the kinds of the vertices, the lines, and the link condition.
 bool Remesher::is_collapse_legal(std::uint32_t h) const {
   const std::uint32_t v = mesh_.from(h), u = mesh_.to(h), o = mesh_.twin[h];
   const WorkVertex& gone = mesh_.vertices[v];
@@ -342,7 +343,7 @@ bool Remesher::is_collapse_legal(std::uint32_t h) const {
   for (const std::uint32_t e : {h, o}) {
     if (e == k_none) continue;
     const std::uint32_t p = WorkMesh::next(e), q = WorkMesh::prev(e);
-    // The border of rows may lose a triangle: its edge passes to the triangle behind.
+    // The border of rows may lose a triangle. Its edge passes to the triangle behind.
     const bool is_behind_front = (mesh_.twin[p] == k_none && is_front(p)) != (mesh_.twin[q] == k_none && is_front(q));
     if (!is_behind_front && (mesh_.twin[p] == k_none || mesh_.twin[q] == k_none)) return false;
     if (mesh_.line[p] != k_no_line && mesh_.line[q] != k_no_line) return false;
@@ -369,7 +370,7 @@ bool Remesher::is_collapse_legal(std::uint32_t h) const {
   return common == (o == k_none ? 1 : 2);
 }
 
-/// Returns the quality of the worst triangle changed by the collapse; k_folded also if an edge would be longer than `most`.
+/// Returns the quality of the worst triangle that the collapse changes; k_folded also if an edge would become longer than `most`.
 double Remesher::collapse_quality(std::uint32_t h, double most) const {
   const std::uint32_t v = mesh_.from(h), u = mesh_.to(h), o = mesh_.twin[h];
   const WorkVertex& stays = mesh_.vertices[u];
@@ -378,7 +379,7 @@ double Remesher::collapse_quality(std::uint32_t h, double most) const {
     if (worst == k_folded || e == h || (o != k_none && e / 3 == o / 3)) return;
     const std::uint32_t w = mesh_.to(e);
     const WorkVertex& other = mesh_.vertices[w];
-    // An edge that is too long already will be halved anyway.
+    // An edge that is too long already will be halved in any case.
     const double length = distance(stays.point, other.point);
     if (length > most * 0.5 * (stays.size + other.size) && length > k_no_longer * distance(mesh_.at(v), other.point)) {
       worst = k_folded;
@@ -391,7 +392,7 @@ double Remesher::collapse_quality(std::uint32_t h, double most) const {
   return worst;
 }
 
-/// Collapses in the direction that leaves better triangles, if they are better than `floor`.
+/// Collapses the edge in the direction that leaves better triangles, if these are better than `floor`.
 bool Remesher::try_collapse(std::uint32_t h, double floor, double most) {
   std::uint32_t best = k_none;
   double largest = floor;
@@ -402,7 +403,7 @@ bool Remesher::try_collapse(std::uint32_t h, double floor, double most) {
       best = e;
     }
   }
-  // An open boundary has one half-edge only: the other direction would need the triangle's other half-edges, which is not possible.
+  // An open boundary has only one half-edge. A collapse in the other direction would need its twin, so it is not possible.
   if (best == k_none) return false;
   const std::uint32_t u = mesh_.to(best);
   mesh_.collapse(best);
@@ -546,7 +547,7 @@ TriMesh Remesher::result() const {
   for (const auto& [copy, was] : copies_) is_copy[copy] = 1;
   for (std::size_t v = 0; v < mesh_.vertices.size(); ++v)
     if (mesh_.vertices[v].out != k_none && is_copy[v] == 0) ids[v] = out.points.push_back(mesh_.vertices[v].point);
-  // Copies of vertices on lines with rows are merged again, except on borders that have moved.
+  // Vertices on lines with rows were copied. The copies are merged again, except on borders that have moved.
   for (const auto& [copy, was] : copies_)
     if (!ids[was].is_valid()) ids[was] = out.points.push_back(mesh_.vertices[was].point);
   for (const auto& [copy, was] : copies_) ids[copy] = ids[was];
@@ -604,7 +605,7 @@ std::vector<TriangleId> Remesher::reference_triangles_of(const std::vector<std::
       const auto& v = mesh_.triangles[t];
       Box box;
       for (const std::uint32_t k : v) box.add(mesh_.at(k));
-      // All reference triangles of the smooth piece covered by the triangle, found by walks from its corners and middle.
+      // These are all reference triangles of the smooth piece that the triangle covers. They are found by walks from its corners and middle.
       std::vector<TriangleId> stack{mesh_.hint[t]};
       for (const std::uint32_t k : v) {
         const WorkVertex& w = mesh_.vertices[k];

@@ -1,4 +1,4 @@
-// Local operations on the new surface that drive edges to their target length, triangles to equilateral shape, and vertices onto the reference.
+// Local operations on the new surface. They bring edges to their target length, triangles to an equilateral shape, and vertices onto the reference.
 #pragma once
 
 #include <cstdint>
@@ -12,61 +12,63 @@
 
 namespace sterna::surfmesh {
 
-/// Remeshes by local operations. Passes are serial in a fixed order (except smoothing, colour by colour), so the result does not depend on the number of
-/// threads.
+/// Remeshes by local operations. Passes are serial in a fixed order; only smoothing is parallel, one colour at a time. The result therefore does not depend on
+/// the number of threads.
 class Remesher {
  public:
-  /// Starts with the reference's own triangles. Both must outlive this object.
+  /// Starts with the reference's own triangles. `reference` and `sizes` must outlive this object.
   Remesher(const Reference& reference, const RemeshSizes& sizes, const RunContext& context);
 
-  /// Collapses edges shorter than `least` times the target length, shortest first. Returns the number. In the first call triangles may be inverted against
-  /// the reference if some were before: sliver triangles of the input are.
+  /// Collapses edges shorter than `least` times the target length, shortest first. Returns the number of collapses. In the first call triangles may be inverted
+  /// against the reference if some of those before were inverted, because sliver triangles of the input often are.
   std::int64_t collapse_short(double least, bool is_first);
-  /// Halves edges longer than `most` times the target, longest first, until none is left or `max_triangles` is reached: very thin baffles would otherwise be
-  /// split without end.
+  /// Halves edges longer than `most` times the target, longest first, until none is left or `max_triangles` is reached. Without that limit very thin baffles
+  /// would be split without end.
   std::int64_t split_long(double most, std::int64_t max_triangles);
   std::int64_t n_triangles() const;
   /// Returns the middle and length (m) of the shortest edge that is still to be halved; the first vertex and 0 if there is none.
   std::pair<Point, double> shortest_to_halve(double most) const;
-  /// Flips edges where the worse of the two triangles becomes better.
+  /// Flips edges if the worse of the two triangles becomes better.
   std::int64_t flip_edges();
-  /// Flips edges where vertices come closer to six neighbours (four beside a straight line) and the triangles remain good.
+  /// Flips edges if the numbers of neighbours come closer to six (four beside a straight line) and the triangles remain good.
   std::int64_t regularise();
-  /// Moves vertices towards the centre of their surroundings, weighted by sizes, if the worst adjacent triangle does not get worse, or stays better than
-  /// `floor`.
+  /// Moves vertices towards the centre of their surroundings, weighted by sizes, provided that the worst adjacent triangle does not get worse or stays better
+  /// than `floor`.
   void smooth(int rounds, double floor = 0.6);
-  /// Improves triangles worse than `quality` (mean ratio): collapses, flips or halves their edges, or moves their vertices, if the worst nearby triangle
+  /// Improves triangles whose mean ratio is below `quality`. Collapses, flips or halves their edges, or moves their vertices, if the worst nearby triangle then
   /// improves.
   std::int64_t improve(double quality);
-  /// Renumbers so that neighbours in space are neighbours in memory.
+  /// Renumbers vertices and triangles so that neighbours in space are neighbours in memory.
   void renumber();
-  /// Updates target lengths from the field.
+  /// Updates target lengths from the size field.
   void refresh_sizes();
 
   /// Grows rows of stretched triangles. The mesh is opened along the lines. On each side with rows, the opened border moves away from the line row by row,
-  /// while the triangles in front make room; result() makes the rows themselves. Lines with rows and the border do not change afterwards. Call once.
+  /// while the triangles in front of it make room. The row triangles themselves are made by result(). Lines with rows and the moved border do not change
+  /// afterwards. Call once.
   void grow_rows(std::span<const LineRows> rows);
-  /// Returns the outer ends of rows with the edge lengths there, which sizes have to follow.
+  /// Returns the outer ends of rows with the edge lengths there. Sizes have to increase from these values.
   std::vector<SizeSite> row_ends() const;
   /// Returns the reach of rows at all locations of noses, for each side.
   std::vector<RowReach> nose_reaches() const;
   RowReport row_report() const;
 
   const WorkMesh& mesh() const { return mesh_; }
-  /// Strips between lines: the middle and length of each edge from one line to another.
+  /// An edge from one line to another, across a strip between lines, with its triangle, its middle and its length.
   struct Strip {
     TriangleId triangle;
     Point point;
     double width;
   };
   std::vector<Strip> strips() const;
-  /// Returns the triangles with an angle below `angle`, smallest first, with the lines and corners there.
+  /// Returns the triangles with an angle below `angle`, smallest first, and the lines and corners there.
   std::vector<ErrorPlace> needles(double angle) const;
-  /// Returns the fraction of the area of triangles turned by more than `angle` from the reference at a corner; rows do not count.
+  /// Returns the fraction of the area of triangles turned by more than `angle` from the reference at a corner. Rows are not included.
   double turned_share(double angle) const;
-  /// Returns the remaining vertices and triangles, in their order.
+  /// Returns the remaining vertices and triangles, in their previous order.
   TriMesh result() const;
-  /// Returns the reference triangles near those of result() in the pairs: within `rings` rings around the area covered by the pairs. Sorted, unique.
+  /// Returns the reference triangles near the given pairs of triangles of result(): those within `rings` rings around the area that the pairs cover. Sorted,
+  /// unique.
   std::vector<TriangleId> reference_triangles_of(const std::vector<std::array<std::uint32_t, 2>>& pairs, int rings) const;
 
  private:
@@ -105,17 +107,17 @@ class Remesher {
   bool search(std::uint32_t v);
   std::vector<std::vector<std::uint32_t>> colours() const;
 
-  /// A location of a line with rows, on one side: its rows, [0] on the line, the last one the border's vertex.
+  /// The rows at one location of a line, on one side. rows[0] lies on the line, and the last one is the border vertex.
   struct LineColumn {
     std::uint32_t vertex = k_none;                    ///< vertex of the border
     std::uint32_t before = 0, after = 0;              ///< its neighbours along the border; the face is to the left of the path from one to the other
-    std::size_t before_column = 0, after_column = 0;  ///< k_no_column: a neighbour without rows
+    std::size_t before_column = 0, after_column = 0;  ///< columns of these neighbours; k_no_column: a neighbour without rows
     std::vector<WorkVertex> rows;
-    std::vector<double> heights;  ///< m
+    std::vector<double> heights;  ///< m, heights of the rows
     Vec3 way;                     ///< unit vector of the last step
     double spacing = 0.0;         ///< m, mean length of the two edges along the line
     double room = 0.0;            ///< m: available height for the rows
-    double climbed = 0.0;         ///< m
+    double climbed = 0.0;         ///< m, height of all rows made so far
     const SideRows* wish = nullptr;
     bool is_growing = true;
     bool is_nose = false;
@@ -130,7 +132,7 @@ class Remesher {
   /// A triangle of rows.
   struct RowCell {
     std::uint32_t edge;                                   ///< index in row_edges_
-    std::array<std::array<std::uint32_t, 2>, 3> corners;  ///< for each corner the side (0: a, 1: b) and the row
+    std::array<std::array<std::uint32_t, 2>, 3> corners;  ///< for each corner the side (0: a, 1: b) and the number of the row
   };
   static constexpr std::size_t k_no_column = ~std::size_t{0};
 
@@ -151,15 +153,15 @@ class Remesher {
   const RemeshSizes& sizes_;
   RunContext context_;
   WorkMesh mesh_;
-  std::vector<double> quality_;         ///< per triangle; k_folded for one inverted against the reference
-  std::vector<std::uint8_t> locked_;    ///< lines of kept triangles
-  std::vector<std::uint8_t> is_rim_;    ///< lines that are open boundaries; empty if there is none
+  std::vector<double> quality_;         ///< quality of each triangle; k_folded if it is inverted against the reference
+  std::vector<std::uint8_t> locked_;    ///< flags of the lines that border kept triangles
+  std::vector<std::uint8_t> is_rim_;    ///< flags of the lines that are open boundaries; empty if there is none
   double flat_ = 0.0;                   ///< m
   std::int32_t front_ = k_no_line - 1;  ///< placeholder for the line of the border's edges; locked
   std::vector<LineColumn> columns_;
   std::vector<RowEdge> row_edges_;
-  std::vector<std::pair<std::uint32_t, std::uint32_t>> copies_;  ///< vertices of the opened mesh and the line vertices they were copied from, sorted by the
-                                                                 ///< first
+  /// Vertices of the opened mesh, each with the line vertex from which it was copied; sorted by the former.
+  std::vector<std::pair<std::uint32_t, std::uint32_t>> copies_;
 };
 
 }  // namespace sterna::surfmesh

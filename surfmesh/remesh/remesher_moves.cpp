@@ -14,22 +14,22 @@ namespace {
 
 /// A vertex whose triangles are all better than this is not moved.
 constexpr double k_still = 0.96;
-/// Directions and steps (relative to the target length) of the search for a better location.
+/// Number of directions and steps (relative to the target length) of the search for a better location.
 constexpr int k_search_directions = 8;
 constexpr std::array<double, 3> k_search_steps = {0.25, 0.1, 0.03};
 constexpr double k_search_gain = 1e-4;
-/// Shorter edges may be collapsed for a better triangle, and longer ones may be halved.
+/// To improve a bad triangle, edges shorter than this may be collapsed, and longer ones may be halved.
 constexpr double k_short_in_trouble = 1.0;
 constexpr double k_long_after_trouble = 1.7;
-/// Mean ratio of a triangle with a corner of about 10 degrees. For worse triangles edges of any length may be collapsed, and edges of up to this many target
-/// lengths may stay.
+/// Mean ratio of a triangle with a corner of about 10 degrees. To improve worse triangles, edges of any length may be collapsed, and edges of up to
+/// k_long_for_needles target lengths may remain.
 constexpr double k_needle_ratio = 0.3;
 constexpr double k_long_for_needles = 3.0;
 constexpr std::size_t k_move_chunk = 256;
 
 }  // namespace
 
-/// Computes a greedy colouring in the order of vertices: no two neighbours have the same colour.
+/// Computes a greedy colouring in the order of vertices. No two neighbours have the same colour.
 std::vector<std::vector<std::uint32_t>> Remesher::colours() const {
   std::vector<std::uint8_t> colour(mesh_.vertices.size(), 255);
   std::vector<std::vector<std::uint32_t>> lists;
@@ -48,8 +48,8 @@ std::vector<std::vector<std::uint32_t>> Remesher::colours() const {
   return lists;
 }
 
-/// Returns the vertex moved by a fraction of the distance to the centre: on a line between its neighbours, on a face of the adjacent triangles, each weighted
-/// by its area in target lengths.
+/// Returns the vertex moved by a fraction of the distance to a centre. On a line the centre is the middle between its neighbours, on a face the centre of the
+/// adjacent triangles, each weighted by its area in units of the target length.
 WorkVertex Remesher::smoothed(std::uint32_t number, double share) const {
   const WorkVertex& v = mesh_.vertices[number];
   WorkVertex moved = v;
@@ -119,7 +119,7 @@ void Remesher::smooth(int rounds, double floor) {
     }
 }
 
-/// Searches around the vertex for a location where the worst triangle at v is better.
+/// Searches around the vertex for a location where its worst triangle is better.
 bool Remesher::search(std::uint32_t number) {
   if (mesh_.vertices[number].kind == VertexKind::corner || mesh_.vertices[number].is_fixed) return false;
   bool has_moved = false;

@@ -1,5 +1,5 @@
-// Remesher: rows of stretched triangles along lines. The mesh is opened along the line. The border climbs row by row, and the triangles in front of it make
-// room by collapses into it, flips and moves. The gap behind the border is filled with the columns' rows.
+// Remesher: rows of stretched triangles along lines. The mesh is opened along the line. The opened border moves away from the line row by row, and the
+// triangles in front of it make room by collapses into it, flips and moves. The gap between line and border is filled with the rows of the columns.
 #include <algorithm>
 #include <cmath>
 #include <limits>
@@ -12,24 +12,25 @@
 namespace sterna::surfmesh {
 namespace {
 
-/// Triangles in front of the border have at least this mean ratio, or their previous one.
+/// Triangles in front of the border keep at least this mean ratio, or at least their previous one if that is less.
 constexpr double k_border_floor = 0.25;
-/// Largest number of steps of one row: each step covers the remaining distance, a half or a quarter of it; then the triangles in front of the border make
+/// Largest number of steps for one row. Each step covers the remaining distance, or a half or a quarter of it. Then the triangles in front of the border make
 /// room.
 constexpr int k_border_steps = 16;
 constexpr std::array<double, 3> k_border_shares = {1.0, 0.5, 0.25};
-/// Relative to a row's height: if the border cannot move further, the row is kept from this fraction on.
+/// Fraction of a row's height. If the border cannot move by the whole height, the row is kept if the border moved by at least this fraction.
 constexpr double k_least_part = 0.5;
-/// Relative to the target length: shorter edges in front of the border are collapsed.
+/// Edges in front of the border that are shorter than this are collapsed, relative to the target length.
 constexpr double k_short_before_border = 0.6;
 constexpr double k_longest_at_border = 2.0;
-/// Limits for triangles of rows: smallest cosine between their normal and the surface's, and range of the ratio of a row's edge length to that on the line.
+/// Limits for triangles of rows: smallest cosine between their normal and the surface normal, and range of the edge length of a row relative to that on the
+/// line.
 constexpr double k_row_cosine = 0.5;
 constexpr double k_row_narrowest = 0.45, k_row_widest = 2.2;
-/// Relative to a step: normal accuracy of its length, and the worst accepted one.
+/// Target accuracy of the length of a step, and the largest accepted deviation, both relative to the step.
 constexpr double k_row_tolerance = 1e-7, k_row_inexact = 0.05;
 constexpr int k_row_iterations = 20;
-/// Weight of the last step's direction in the next one: borders become smoother than the line.
+/// Weight of the last step's direction in the direction of the next step. Through it the outer border becomes smoother than the line.
 constexpr double k_straight_on = 0.5;
 
 }  // namespace
@@ -43,7 +44,7 @@ void Remesher::open_lines(std::span<const LineRows> rows) {
   for (const LineRows& l : rows) rows_of[static_cast<std::size_t>(l.line)] = &l;
   struct Cut {
     std::uint32_t halfedge;
-    const SideRows* side;  ///< null: no rows on this side
+    const SideRows* side;  ///< null if there are no rows on this side
   };
   std::vector<Cut> cuts;
   std::vector<std::uint32_t> touched;
@@ -70,7 +71,7 @@ void Remesher::open_lines(std::span<const LineRows> rows) {
   }
   struct Border {
     std::size_t column;
-    std::uint32_t in, out;  ///< half-edges of the border: to the column's vertex, from it
+    std::uint32_t in, out;  ///< half-edges of the border that end and begin at the column's vertex
   };
   std::vector<Border> borders;
   for (std::size_t i = 0; i < touched.size(); ++i) {
@@ -108,7 +109,7 @@ void Remesher::open_lines(std::span<const LineRows> rows) {
     column.after_column = column_of[column.after];
     const Point& p = mesh_.at(column.vertex);
     column.spacing = 0.5 * (distance(p, mesh_.at(column.before)) + distance(p, mesh_.at(column.after)));
-    // The line's vertex with the normal of this side: the hints of triangles may be from the other side, if both are in one smooth piece.
+    // The vertex on the line needs the normal of this side. If both sides are in one smooth piece, the hints of triangles may be from the other side.
     const std::int32_t l = mesh_.line[b.out];
     const FeatureLine& line = r_.lines[static_cast<std::size_t>(l)];
     column.is_nose = rows_of[static_cast<std::size_t>(l)]->is_nose;
@@ -188,7 +189,7 @@ bool Remesher::place(std::uint32_t v, const WorkVertex& where, double floor) {
   return false;
 }
 
-/// Merges the start vertex of h into the border vertex at its end.
+/// Merges the start vertex of h, which blocks the border, into the border vertex at its end.
 bool Remesher::take_into(std::uint32_t h, double floor) {
   if (!is_collapse_legal(h) || !(collapse_quality(h, k_longest_at_border) > floor)) return false;
   const std::uint32_t u = mesh_.to(h);
@@ -227,7 +228,7 @@ bool Remesher::make_room(std::uint32_t v, const Point& towards) {
   return has_changed;
 }
 
-/// Moves the border's vertex to its next row, or a part of the distance. \return true if the row was made
+/// Moves the border's vertex to its next row, or by a part of the distance. \return true if the row was made
 bool Remesher::advance(LineColumn& c, const WorkVertex& target, double height) {
   const std::uint32_t v = c.vertex;
   const WorkVertex start = mesh_.vertices[v];
@@ -282,7 +283,7 @@ bool Remesher::grow_column(LineColumn& c, std::size_t row) {
   };
   WorkVertex target;
   if (!step(height, target)) return false;
-  // The turn across is limited by the curvature angle, down to a height of min_edge.
+  // The curvature angle limits the turn of the surface across a row. It does not reduce the height of the row below min_edge.
   if (const double turn = angle_between(top.normal, target.normal); turn > c.wish->curvature_angle) {
     const double lower = std::max(height * c.wish->curvature_angle / turn, std::min(height, c.wish->min_edge));
     if (lower < height) {

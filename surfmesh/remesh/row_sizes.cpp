@@ -9,9 +9,9 @@
 namespace sterna::surfmesh {
 namespace {
 
-/// Change of the length along per distance at the ends of a nose's rows.
+/// Change per distance of the edge length along the line, at the ends of a nose's rows.
 constexpr double k_change_at_ends = 0.3;
-/// Relative to the largest height of rows: sizes must be positive.
+/// Offset that keeps sizes positive, relative to the largest height of rows.
 constexpr double k_reach_offset = 1e-3;
 
 }  // namespace
@@ -53,7 +53,8 @@ Column<VertexId, std::uint8_t> covered_by_noses(const Reference& reference, std:
   covered.assign(reference.mesh->n_vertices(), 0);
   double largest = 0.0;
   for (const RowReach& reach : reaches) largest = std::max(largest, reach.height);
-  // Sizes start from the difference to the largest height and grow by 1 with the distance. Within the row height they are thus at most the largest height.
+  // Each size starts from the largest height minus the height here, and grows by 1 with the distance. Within the height of the rows the size is therefore at
+  // most the largest height.
   std::vector<SizeSite> sites;
   for (const RowReach& reach : reaches)
     if (reach.height > 0.0) sites.push_back({reach.point, (largest - reach.height) + k_reach_offset * largest});

@@ -1,5 +1,5 @@
-// Sizes required by rows at leading and trailing edges: edge lengths along their lines, and regions of noses where the curvature is ignored because rows
-// determine the size.
+// Sizes required by rows at leading and trailing edges: edge lengths along their lines, and regions of noses where curvature is ignored because rows determine
+// the size.
 #pragma once
 
 #include <span>
@@ -11,7 +11,8 @@
 
 namespace sterna::surfmesh {
 
-/// Returns target edge lengths along lines with rows, at locations no farther apart than that length; smaller towards the ends of noses, where rows end.
+/// Returns target edge lengths along lines with rows, at locations no farther apart than that length. They are smaller towards the ends of noses, where rows
+/// end.
 std::vector<SizeSite> sites_of_rows(const Reference& reference, const RowLines& rows);
 
 /// Height of the rows above a location of a line.
@@ -20,10 +21,10 @@ struct RowReach {
   double height = 0.0;  ///< m
 };
 
-/// Returns the reaches at the locations of noses, predicted by the law of their rows.
+/// Returns the height of the rows at the locations of noses, as predicted from their first height and growth.
 std::vector<RowReach> foreseen_reaches(const Reference& reference, const RowLines& rows);
 
-/// Returns the vertices of the reference that are nearer to a location of a nose than the rows reach there. Empty without such locations.
+/// Returns the vertices of the reference that are nearer to a location of a nose than the rows reach there. Empty if there are no such locations.
 Column<VertexId, std::uint8_t> covered_by_noses(const Reference& reference, std::span<const RowReach> reaches, const RunContext& context);
 
 }  // namespace sterna::surfmesh

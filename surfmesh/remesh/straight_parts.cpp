@@ -1,6 +1,6 @@
-// The bend between two chords of an arc is shared by both, in proportion to their lengths. Where a straight part continues an arc tangentially, the last
-// chord carries all of the bend at its end, as much as at its other end. So the share of a part at its end is the bend there minus the rise of its neighbour
-// at the neighbour's far end: zero for a straight part, its own rise for a chord of the same arc, for any lengths.
+// The bend between two chords of an arc is shared by both, in proportion to their lengths. Where a straight part continues an arc tangentially, the last chord
+// of the arc carries the whole bend at that end, as much as at its other end. The share of a part at its end is therefore computed as the bend there minus the
+// rise of its neighbour at the neighbour's far end. This gives zero for a straight part, and the part's own rise for a chord of the same arc, for any lengths.
 #include "surfmesh/remesh/straight_parts.h"
 
 #include <algorithm>
@@ -15,26 +15,28 @@
 namespace sterna::surfmesh {
 namespace {
 
-/// Relative to the bend at its end: a part with a smaller share is straight there. Chords of equal length on one arc have half of it.
+/// A part whose share is below this fraction of the bend at its end is straight there. Chords of equal length on one arc have a share of half the bend.
 constexpr double k_straight_share = 0.3;
-/// A part this many times as long as its neighbour is straight there: an arc cut by angle or by chord has no such steps, and an arc of one chord has no rise.
+/// A part this many times as long as its neighbour is straight there. An arc cut by angle or by chord error has no such steps, and an arc with a single chord
+/// has no rise.
 constexpr double k_much_longer = 4.0;
-/// Below this ratio of lengths the neighbour's rise adds no information to the mean normal.
+/// If a part is less than this many times as long as its neighbour, the neighbour's rise adds no information to the mean normal.
 constexpr double k_longer = 2.0;
-/// rad: smaller bends count as zero.
+/// Rad: smaller bends count as zero.
 constexpr double k_no_bend = 1e-4;
-/// A continuation of an edge this near to the end of the surface or to an edge is moved there: rad, and relative to the angle between two edges.
+/// A continuation of an edge is moved to the end of the surface if it is within the first value (rad) of it. It is moved to another edge if it is within the
+/// second value, relative to the angle between two edges.
 constexpr double k_near_end = 0.1, k_near_edge = 0.15;
-/// Relative to the body's length: distance from a plane caused by rounding in files of single precision.
+/// Relative to the body's length: distances from a plane that rounding in files of single precision causes.
 constexpr double k_plane_noise = 2e-7;
-/// rad: triangles with a larger bend are not coplanar, however small they are.
+/// Rad: triangles with a larger bend are not coplanar, however small they are.
 constexpr double k_most_plane_bend = 0.05;
-/// Relative to the bend over the adjacent edges that are at least half as long: an edge with a smaller bend is a diagonal of a strip between two of those,
-/// not its side.
+/// An edge is a diagonal of a strip, not its side, if its bend is less than the first fraction of the bend over the adjacent edges. Only adjacent edges with at
+/// least the second fraction of its length are used.
 constexpr double k_diagonal_share = 0.3, k_side_length = 0.5;
-/// Largest number of points of a facet used to measure its width.
+/// Largest number of points of a facet that are used to measure its width.
 constexpr std::size_t k_width_points = 64;
-/// Cosine between directions of straight edges that count as one; sine between a direction and a plane that counts as in it.
+/// Cosine above which two directions of straight edges count as equal, and sine below which a direction counts as lying in a plane.
 constexpr double k_same_direction = 0.95, k_in_plane = 0.1;
 
 /// Classification of one end of a part.
@@ -52,7 +54,7 @@ struct FanWalk {
   const Reference& r;
   const Column<HalfedgeId, std::uint8_t>& is_sharp;
 
-  /// Collects corners (half-edges from the vertex) from `first` counter-clockwise up to a sharp edge or once around; true: around.
+  /// Collects corners (half-edges that leave the vertex) counter-clockwise from `first` up to a sharp edge, or once around. \return true if it went once around
   bool turn_left(HalfedgeId first, std::vector<HalfedgeId>& fan) const {
     for (HalfedgeId h = first;;) {
       fan.push_back(h);
@@ -76,14 +78,14 @@ struct FanWalk {
   }
 };
 
-/// Continuation of the surface behind an edge.
+/// Continuation of an edge across the surface behind its end.
 struct Continuation {
   bool exists = false;
   Point point;
   Vec3 normal;
 };
 
-/// Returns the point on the triangle's side opposite the vertex of corner `h`, at `angle` from the corner's first edge.
+/// Returns the point on the side of the triangle opposite the vertex of corner `h`, seen at `angle` from the first edge of the corner.
 Continuation opposite_point(const FanWalk& walk, HalfedgeId h, double angle) {
   const Reference& r = walk.r;
   const Point &v = r.mesh->points[r.topology.from(h)], &x = r.mesh->points[r.topology.to(h)], &y = r.mesh->points[r.topology.from(previous(h))];
@@ -95,7 +97,7 @@ Continuation opposite_point(const FanWalk& walk, HalfedgeId h, double angle) {
   return {true, x + t * (y - x), normalized((1.0 - t) * r.normals[next(h)] + t * r.normals[previous(h)])};
 }
 
-/// Returns the continuation of the edge of `h` behind the half-edge's first vertex: as straight as the surface allows.
+/// Returns the continuation of the edge of `h` behind the half-edge's first vertex. The continuation is as straight as the surface allows.
 Continuation continuation(const FanWalk& walk, HalfedgeId h) {
   std::vector<HalfedgeId> fan;
   const auto go = [&](double target, bool is_left) {
@@ -125,7 +127,7 @@ struct EdgeEnd {
   double most_rise = std::numeric_limits<double>::infinity();
 };
 
-/// Classifies the end of a non-line edge at the first vertex of `h`.
+/// Classifies the end of an edge that is not on a line, at the first vertex of `h`.
 EdgeEnd edge_end(const FanWalk& walk, HalfedgeId h) {
   const Reference& r = walk.r;
   const Point &a = r.mesh->points[r.topology.from(h)], &b = r.mesh->points[r.topology.to(h)];
@@ -142,7 +144,7 @@ EdgeEnd edge_end(const FanWalk& walk, HalfedgeId h) {
   return result;
 }
 
-/// Returns true for diagonals of strips: they end where the sides of the strips do, but the surface is curved along them.
+/// Returns true for diagonals of strips. They end where the sides of the strips end, but the surface is curved along them.
 bool is_diagonal(const FanWalk& walk, HalfedgeId h) {
   const Reference& r = walk.r;
   const auto bend = [&](HalfedgeId e) { return angle_between(r.triangle_normals[triangle_of(e)], r.triangle_normals[triangle_of(r.topology.twin(e))]); };
@@ -154,7 +156,7 @@ bool is_diagonal(const FanWalk& walk, HalfedgeId h) {
   return false;
 }
 
-/// Triangles in one plane, connected over edges that are not sharp.
+/// Triangles in one plane that are connected across edges that are not sharp.
 struct PlaneFacet {
   std::vector<TriangleId> triangles;
   Vec3 normal;
@@ -170,7 +172,7 @@ class FlatFaces {
     grow();
     std::vector<std::uint32_t> order(facets_.size());
     std::iota(order.begin(), order.end(), 0U);
-    // Largest first: a facet between two flat faces has the bends at both.
+    // Largest facet first, because a facet between two flat faces carries the bends at both.
     std::stable_sort(order.begin(), order.end(), [&](std::uint32_t i, std::uint32_t j) { return facets_[i].area > facets_[j].area; });
     for (const std::uint32_t f : order)
       if (is_flat(f))
@@ -251,7 +253,7 @@ class FlatFaces {
     const double wide = width(facet, h), beside = width(other, o);
     const double to_centre = height_over(o, other.centre), height = height_over(o, r_.mesh->points[r_.topology.from(previous(o))]);
     const Vec3& tip = r_.normals[previous(o)];
-    // The normal turns as much per length on the near side of the facet's centre as on the far one; bends of opposite sense add up.
+    // The normal turns at the same rate on both sides of the facet's centre. Bends in opposite directions add up.
     const double turn = height > to_centre ? angle_between(n, tip) * to_centre / (height - to_centre) : 0.0;
     const double sense = dot(cross(facet.normal, n), cross(n, tip)) < 0.0 ? -1.0 : 1.0;
     return {end_of(bend, bend - sense * turn, wide, beside), wide > k_much_longer * beside};
@@ -281,7 +283,7 @@ class FlatFaces {
   std::vector<PlaneFacet> facets_;
 };
 
-/// Returns the normal of a fan of triangles around a vertex, with its straight parts known.
+/// Returns the normal of a fan of triangles around a vertex, taking its straight parts into account.
 Vec3 straight_normal(const FanWalk& walk, const StraightParts& parts, HalfedgeId h, std::vector<HalfedgeId>& fan) {
   const Reference& r = walk.r;
   fan.clear();
@@ -292,7 +294,7 @@ Vec3 straight_normal(const FanWalk& walk, const StraightParts& parts, HalfedgeId
   for (const HalfedgeId e : fan) {
     const Vec3& n = parts.plane[triangle_of(e)];
     if (norm2(n) == 0.0) continue;
-    // Triangles of one flat face are consecutive: each face counts once.
+    // The triangles of one flat face are consecutive in the fan, and each face is used once.
     if (norm2(flat) == 0.0) flat = n;
     else if (norm2(flat - n) > 0.0) flat = flat + n;
   }
@@ -327,12 +329,12 @@ std::vector<std::uint8_t> straight_segments(const TriMesh& mesh, const FeatureLi
   const auto step = [&](std::size_t i) { return mesh.points[line.vertices[i + 1]] - mesh.points[line.vertices[i]]; };
   const auto turn = [&](std::size_t i) { return cross(normalized(step(i - 1)), normalized(step(i))); };
   std::vector<std::uint8_t> result(n - 1, 0);
-  // Classifies the end of segment i where segment j continues it at vertex v; `far` is the other end of j.
+  // Classifies the end of segment i where segment j continues it at vertex v. `far` is the other end of j.
   const auto end_at = [&](std::size_t i, std::size_t v, std::size_t j, std::size_t far) {
     const double bend = angle_between(step(v - 1), step(v));
     if (result[j] != 0) return bend <= k_no_bend ? End::no_bend : End::curved;
     const double length = norm(step(i)), beside = norm(step(j));
-    // If the neighbour ends the line, there is no information behind it: it may be the last chord of an arc.
+    // If the neighbour is the last segment of the line, nothing is known about the line behind it: it may be the last chord of an arc.
     double rise = length > beside ? bend : 0.0;
     if (far > 0 && far + 1 < n) {
       const double all = norm(step(far - 1)) + norm(step(far));
@@ -341,7 +343,7 @@ std::vector<std::uint8_t> straight_segments(const TriMesh& mesh, const FeatureLi
     }
     return end_of(bend, bend - rise, length, beside);
   };
-  // Longest first: a straight segment leaves the bends at its ends to its neighbours.
+  // Longest segment first: once a segment is found to be straight, the bends at its ends count as curvature of its shorter neighbours.
   std::vector<std::size_t> order(n - 1);
   std::iota(order.begin(), order.end(), std::size_t{0});
   std::stable_sort(order.begin(), order.end(), [&](std::size_t i, std::size_t j) { return norm2(step(i)) > norm2(step(j)); });

@@ -40,7 +40,7 @@ void WorkMesh::join(std::uint32_t a, std::uint32_t b, std::int32_t l) {
 void WorkMesh::split(std::uint32_t h, std::uint32_t m) {
   const std::uint32_t o = twin[h];
   const std::int32_t l = line[h];
-  // On each side, triangle (a, b, c) with the edge a b becomes (a, m, c), and a new one (m, b, c) is added.
+  // On each side, the triangle (a, b, c) on the edge a b becomes (a, m, c), and the triangle (m, b, c) is added.
   const auto halve = [&](std::uint32_t e) {
     const std::uint32_t t = e / 3, bc = next(e), c = apex(e), b = to(e);
     const auto n = static_cast<std::uint32_t>(triangles.size());
@@ -56,7 +56,7 @@ void WorkMesh::split(std::uint32_t h, std::uint32_t m) {
     vertices[m].out = 3 * n;
     vertices[b].out = 3 * n + 1;
     vertices[c].out = 3 * n + 2;
-    return 3 * n;  // m to b
+    return 3 * n;  // half-edge from m to b
   };
   const std::uint32_t a = from(h);
   const std::uint32_t second = halve(h);
@@ -64,7 +64,7 @@ void WorkMesh::split(std::uint32_t h, std::uint32_t m) {
     join(h, k_none, l);
     join(second, k_none, l);
   } else {
-    const std::uint32_t second_o = halve(o);  // m to a
+    const std::uint32_t second_o = halve(o);  // half-edge from m to a
     join(h, second_o, l);
     join(second, o, l);
   }
@@ -77,7 +77,7 @@ void WorkMesh::collapse(std::uint32_t h) {
     if (e != h && e / 3 != (o == k_none ? k_none : o / 3)) triangles[e / 3][e % 3] = u;
   });
   const auto close = [&](std::uint32_t e) {
-    // The triangle of e is removed: its two other edges become one. If one of them is a line, it stays a line.
+    // The triangle of e is removed, and its two other edges become one edge. If one of them is on a line, the new edge is on that line.
     const std::uint32_t p = next(e), q = prev(e), c = apex(e);
     const std::uint32_t tp = twin[p], tq = twin[q];
     const std::int32_t l = line[p] != k_no_line ? line[p] : line[q];
@@ -90,7 +90,7 @@ void WorkMesh::collapse(std::uint32_t h) {
       twin[tq] = tp;
       line[tq] = l;
     }
-    // One of the outer triangles begins at c, the other at u.
+    // The half-edge of one outer triangle begins at c, that of the other at u.
     const std::uint32_t outer = tp != k_none ? tp : tq;
     for (const std::uint32_t x : {outer, next(outer), prev(outer)}) {
       const std::uint32_t w = from(x);

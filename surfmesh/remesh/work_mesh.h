@@ -1,4 +1,4 @@
-// A triangle mesh for in-place changes (splits, collapses, flips); half-edge 3 t + c begins at corner c of triangle t.
+// A triangle mesh that is changed in place (splits, collapses, flips). Half-edge 3 t + c begins at corner c of triangle t.
 #pragma once
 
 #include <array>
@@ -19,21 +19,21 @@ struct WorkVertex {
   Point point;
   double size = 0.0;  ///< m, target edge length here
   VertexKind kind = VertexKind::face;
-  std::int32_t line = k_no_line;  ///< for kind line
-  double s = 0.0;                 ///< m, along the line
-  Foot foot;                      ///< for kind face
-  Vec3 normal;                    ///< for kind face: the reference's normal at the foot
-  VertexId corner;                ///< for kind corner: vertex of the reference
+  std::int32_t line = k_no_line;  ///< number of the line; for kind line only
+  double s = 0.0;                 ///< m, location along the line; for kind line only
+  Foot foot;                      ///< location on the reference; for kind face only
+  Vec3 normal;                    ///< the reference's normal at the foot; for kind face only
+  VertexId corner;                ///< vertex of the reference; for kind corner only
   std::uint32_t out = k_none;     ///< a half-edge that begins here; k_none: the vertex is deleted
-  bool is_fixed = false;          ///< on a line with rows, or at their outer end: neither moved nor removed
+  bool is_fixed = false;          ///< on a line with rows, or at the outer end of rows: neither moved nor removed
 };
 
 struct WorkMesh {
   std::vector<WorkVertex> vertices;
-  std::vector<std::array<std::uint32_t, 3>> triangles;  ///< [0] = k_none: deleted
-  std::vector<std::uint32_t> twin;                      ///< for each half-edge; k_none: open boundary
-  std::vector<std::int32_t> line;                       ///< for each half-edge, of its edge
-  std::vector<TriangleId> hint;                         ///< for each triangle a nearby one of the reference in the same smooth piece
+  std::vector<std::array<std::uint32_t, 3>> triangles;  ///< vertices of each triangle; [0] = k_none: the triangle is deleted
+  std::vector<std::uint32_t> twin;                      ///< twin of each half-edge; k_none: open boundary
+  std::vector<std::int32_t> line;                       ///< line of the edge of each half-edge
+  std::vector<TriangleId> hint;                         ///< for each triangle a nearby triangle of the reference in the same smooth piece
 
   static std::uint32_t next(std::uint32_t h) { return h % 3 == 2 ? h - 2 : h + 1; }
   static std::uint32_t prev(std::uint32_t h) { return h % 3 == 0 ? h + 2 : h - 1; }
@@ -58,7 +58,7 @@ struct WorkMesh {
       visit(h);
     }
   }
-  /// Visits the neighbours of v; on an open boundary also the one to which no half-edge from v leads.
+  /// Visits the neighbours of v. On an open boundary this includes the neighbour to which no half-edge from v leads.
   template <class Visit>
   void for_ring(std::uint32_t v, const Visit& visit) const {
     for_out(v, [&](std::uint32_t h) {
@@ -71,11 +71,11 @@ struct WorkMesh {
   /// Splits the edge of h; the vertex `m` becomes its middle.
   void split(std::uint32_t h, std::uint32_t m);
   /// Merges the start vertex of h into its end vertex.
-  /// \pre the link condition
+  /// \pre the link condition holds
   void collapse(std::uint32_t h);
-  /// \pre an edge of two triangles that is no line, and none between their apexes
+  /// \pre the edge has two triangles and is not on a line, and no edge joins the apexes of these triangles
   void flip(std::uint32_t h);
-  /// Removes deleted items; neighbours in space become neighbours in memory.
+  /// Removes deleted vertices and triangles. Neighbours in space become neighbours in memory.
   void renumber();
 
  private:

@@ -9,15 +9,15 @@
 namespace sterna::surfmesh {
 namespace {
 
-constexpr double k_turn_cosine_of_collapse = 0.2;  ///< facets with an area may turn by less than 80 degrees
+constexpr double k_turn_cosine_of_collapse = 0.2;  ///< the normal of a facet with an area may turn by less than 80 degrees
 constexpr int k_collapse_rounds = 10;
 
 struct ShortEdge {
   double length = 0.0;
-  std::uint32_t from = 0, to = 0;  ///< `from` is removed
+  std::uint32_t from = 0, to = 0;  ///< vertex `from` is merged into vertex `to`
 };
 
-/// Returns true if the ends of an inner edge have two common neighbours; else the collapse would pinch the surface.
+/// Returns true if the ends of an inner edge have exactly two common neighbours. Otherwise the collapse would pinch the surface.
 bool is_link_clean(const std::vector<std::vector<std::uint32_t>>& facets_at, const std::vector<Facet>& facets, std::uint32_t a, std::uint32_t b) {
   std::vector<std::uint32_t> na, nb, common;
   for (const std::uint32_t t : facets_at[a]) na.insert(na.end(), facets[t].begin(), facets[t].end());
@@ -25,7 +25,7 @@ bool is_link_clean(const std::vector<std::vector<std::uint32_t>>& facets_at, con
   sort_unique(na);
   sort_unique(nb);
   std::set_intersection(na.begin(), na.end(), nb.begin(), nb.end(), std::back_inserter(common));
-  return common.size() == 4;  // including the ends themselves
+  return common.size() == 4;  // two common neighbours and the two ends themselves
 }
 
 }  // namespace
@@ -49,7 +49,7 @@ void collapse_slivers(RepairState& state, const RepairOptions& options, const Ru
       if (length > limit || edge.count != 2) continue;
       const auto at = edges.at(edge);
       if (!state.info[at[0] / 3].is_touched && !state.info[at[1] / 3].is_touched) continue;
-      // The vertex of the input stays: it has the lower number. Vertices in the plane of a half model stay in it.
+      // The vertex of the input stays, which has the lower number. Vertices in the symmetry plane of a half model stay in the plane.
       const bool is_low_kept = is_on_cap[edge.low] || !is_on_cap[edge.high];
       list.push_back({length, is_low_kept ? edge.high : edge.low, is_low_kept ? edge.low : edge.high});
     }

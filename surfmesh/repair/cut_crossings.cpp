@@ -10,12 +10,12 @@
 namespace sterna::surfmesh {
 namespace {
 
-constexpr double k_grid_share = 1e-10;  ///< relative to L: a hundred times finer than the welding tolerance
+constexpr double k_grid_share = 1e-10;  ///< relative to the body length L: the grid is a hundred times finer than the welding tolerance
 
 }  // namespace
 
 void snap_crossings(RepairState& state, const RunContext& context) {
-  // A power of two: numbers with few digits do not change.
+  // The grid is a power of two, so that numbers with few digits do not change.
   const double grid = std::exp2(std::floor(std::log2(k_grid_share * state.length)));
   const CrossingPairs crossings = find_crossings(state.points, state.facets, context);
   std::vector<std::uint32_t> crossing;
@@ -42,7 +42,7 @@ bool cut_crossings(RepairState& state, const RepairOptions& options, const RunCo
     const CrossingPairs crossings = find_crossings(state.points, state.facets, context);
     if (crossings.total == 0 || crossings.total >= fewest) return is_cut;
     fewest = crossings.total;
-    if (round == 0) {  // later rounds cut the effects of rounding on these
+    if (round == 0) {  // later rounds only cut the effects of rounding on the crossings of the first round
       std::vector<char> crosses(state.facets.size(), 0);
       for (const auto& [i, j] : crossings.pairs) crosses[i] = crosses[j] = 1;
       state.note_parts(RepairKind::cut, crosses, state.edges());

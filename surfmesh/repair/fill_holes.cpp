@@ -1,4 +1,5 @@
-// Loops in one plane are filled together (a ring between two of them is a ring). Others are filled one by one, continuing the triangles around them.
+// Loops in one plane are filled together; for instance two nested loops are filled by a ring. Other loops are filled one by one, and the filling continues the
+// triangles around them.
 #include <algorithm>
 #include <cmath>
 #include <map>
@@ -13,22 +14,23 @@
 namespace sterna::surfmesh {
 namespace {
 
-constexpr double k_flat_rim = 2e-3;        ///< relative to a hole's diameter: boundaries nearer to a plane than this are flat
-constexpr double k_same_plane = 1e-6;      ///< relative to L: loops of one plane
-constexpr double k_full_half = 0.35;       ///< relative to the box's longest side in the plane: smallest extent of the opening of a half model
-constexpr double k_origin_half = 0.1;      ///< the same if the plane passes through the origin
-constexpr double k_covered_share = 0.1;    ///< relative to the opening's area: largest area of facets in its plane
-constexpr double k_in_plane_share = 0.6;   ///< fraction of a loop's vertices: the loop is partly the boundary of a half model, and partly another hole
-constexpr double k_sheet_share = 0.8;      ///< relative to the part's area: with a larger hole the part does not bound a body
-constexpr int k_rings = 2;                 ///< rings of triangles that a curved filling continues
-constexpr std::size_t k_smooth_edges = 4;  ///< smaller holes need no new points
+constexpr double k_flat_rim = 2e-3;      ///< relative to a hole's diameter: a boundary is flat if it is nearer to a plane than this
+constexpr double k_same_plane = 1e-6;    ///< relative to L: loops are in one plane within this distance
+constexpr double k_full_half = 0.35;     ///< relative to the longest side of the box in the plane: smallest extent of the opening of a half model
+constexpr double k_origin_half = 0.1;    ///< the same limit if the plane passes through the origin
+constexpr double k_covered_share = 0.1;  ///< relative to the area of the opening: largest area of facets in the plane of the opening
+/// Smallest fraction of a loop's vertices in the plane: such a loop is partly the boundary of a half model, and partly another hole.
+constexpr double k_in_plane_share = 0.6;
+constexpr double k_sheet_share = 0.8;      ///< relative to the area of the part: a part with a larger hole does not bound a body
+constexpr int k_rings = 2;                 ///< number of rings of triangles around a hole that a curved filling continues
+constexpr std::size_t k_smooth_edges = 4;  ///< holes with fewer edges need no new points
 
 using Loop = std::vector<std::uint32_t>;
 
 struct RimShape {
-  Vec3 center, normal;    ///< unit, right-handed along the loop
+  Vec3 center, normal;    ///< normal: unit, right-handed along the loop
   double diameter = 0.0;  ///< m, diameter of the box
-  double off = 0.0;       ///< farthest from the plane, m
+  double off = 0.0;       ///< m, largest distance from the plane
 };
 
 RimShape shape_of(const RepairState& state, const Loop& loop) {
@@ -42,7 +44,7 @@ RimShape shape_of(const RepairState& state, const Loop& loop) {
     shape.normal += cross(state.points[loop[i]] - shape.center, state.points[loop[(i + 1) % loop.size()]] - shape.center);
   shape.normal = normalized(shape.normal);
   shape.diameter = norm(box.max - box.min);
-  // A boundary in a coordinate plane gets exactly that plane.
+  // If the boundary lies in a coordinate plane, exactly that plane is used.
   for (std::size_t axis = 0; axis < 3; ++axis) {
     if (box.max[axis] != box.min[axis]) continue;
     Vec3 n;
@@ -62,7 +64,7 @@ std::vector<std::vector<Vec3>> points_of(const RepairState& state, const std::ve
   return result;
 }
 
-/// Facets at each vertex, for neighbourhoods.
+/// Facets at each vertex, used to find neighbourhoods.
 using Fans = std::vector<std::vector<std::uint32_t>>;
 Fans fans_of(const RepairState& state) {
   Fans fans(state.points.size());
@@ -101,7 +103,7 @@ HoleRim rim_of(const RepairState& state, const Fans& fans, const Loop& loop) {
   return rim;
 }
 
-/// Returns the patch of most facets along the loop.
+/// Returns the patch to which most facets along the loop belong.
 std::uint32_t patch_around(const RepairState& state, const Fans& fans, const Loop& loop) {
   std::map<std::uint32_t, std::size_t> votes;
   for (const std::uint32_t v : loop)
@@ -117,7 +119,7 @@ std::uint32_t patch_around(const RepairState& state, const Fans& fans, const Loo
   return best;
 }
 
-/// Adds the triangles of a patch over loops (numbered consecutively), oriented along the loops; records the change.
+/// Adds the triangles that fill loops. The loops' vertices are numbered consecutively, and the triangles are oriented along the loops. Records the change.
 void add_patch(RepairState& state, const std::vector<Loop>& loops, const HolePatch& patch, std::uint32_t of_patch, FacetMark mark, RepairKind kind,
                double size) {
   std::vector<std::uint32_t> number;
@@ -146,7 +148,7 @@ void add_patch(RepairState& state, const std::vector<Loop>& loops, const HolePat
   if (mark != FacetMark::cap) state.note(kind, added, size);
 }
 
-/// Returns true if the filling runs along all loops, i.e. if the senses of nested loops alternate, so that the area between them can be filled.
+/// Returns true if the filling runs along all loops. This requires that nested loops alternate in direction, so that the area between them can be filled.
 bool runs_along(const std::vector<Loop>& loops, const HolePatch& patch) {
   std::vector<std::uint32_t> next;
   for (const Loop& loop : loops) {
@@ -193,11 +195,11 @@ struct HalfPlane {
   std::size_t axis = 0;
   double at = 0.0, off = 0.0;
   bool is_above = true;
-  double share = 0.0;  ///< fraction of the box spanned by the opening
+  double share = 0.0;  ///< fraction of the box that the opening spans
   std::vector<std::size_t> loops;
 };
 
-/// Returns all loops near one end of the box in this axis, if they are the opening of a half model.
+/// Returns all loops near one end of the box on this axis, if they form the opening of a half model.
 std::optional<HalfPlane> find_half(const RepairState& state, const std::vector<Loop>& loops, std::size_t axis, bool is_low, bool is_asked, double tolerance) {
   Box box;
   for (const Facet& f : state.facets)
@@ -230,7 +232,7 @@ std::optional<HalfPlane> find_half(const RepairState& state, const std::vector<L
     body = std::max(body, box.max[other] - box.min[other]);
   }
   plane.share = widest / body;
-  // A closed end with a hole is no half model: the facets in the plane must cover less than the opening.
+  // A closed end with a hole is no half model. For a half model the facets in the plane must cover less than the opening.
   double covered = 0.0;
   for (const Facet& f : state.facets) {
     const bool is_in_plane = std::all_of(f.begin(), f.end(), [&](std::uint32_t v) { return std::abs(state.points[v][axis] - plane.at) <= tolerance; });
@@ -244,7 +246,8 @@ std::optional<HalfPlane> find_half(const RepairState& state, const std::vector<L
   return plane;
 }
 
-/// Closes and fills the excursions of loops that leave the plane of a half model and return (its base is open, too), each by a line between its ends.
+/// Finds loops of a half model that leave its plane and return to it, because the base is open, too. Closes each such part by a line between its ends, and
+/// fills it.
 void close_ways_out(RepairState& state, const RepairOptions& options) {
   const double tolerance = options.half_tolerance * state.length;
   const std::vector<Loop> loops = find_loops(state);
@@ -293,7 +296,7 @@ void cap_half(RepairState& state, const RepairOptions& options) {
   const std::vector<Loop> loops = find_loops(state);
   const double tolerance = options.half_tolerance * state.length;
   std::optional<HalfPlane> best;
-  for (const std::size_t axis : {1u, 2u, 0u}) {  // y first: the usual symmetry plane of aircraft
+  for (const std::size_t axis : {1u, 2u, 0u}) {  // y first, because it is normal to the usual symmetry plane of aircraft
     const bool is_asked = options.half == std::string(1, "xyz"[axis]);
     if (options.half != "automatic" && !is_asked) continue;
     for (const bool is_low : {true, false}) {
@@ -319,7 +322,7 @@ void cap_half(RepairState& state, const RepairOptions& options) {
     if (is_rim[v]) state.points[v][best->axis] = best->at;
   for (const std::uint32_t t : moved) state.info[t].is_touched = true;
   state.note(RepairKind::into_plane, moved, best->off);
-  // Facets in the plane belong to the opening.
+  // Facets in the plane belong to the opening and are removed.
   std::vector<char> is_kept(state.facets.size(), 1), is_flat(state.facets.size(), 0);
   for (std::uint32_t t = 0; t < state.facets.size(); ++t) {
     const Facet& f = state.facets[t];
@@ -378,13 +381,13 @@ std::size_t fill_holes(RepairState& state, const RepairOptions& options, RepairK
     }
     const std::uint32_t its_part = fans[loops[i][0]].empty() ? 0 : parts.part[fans[loops[i][0]][0]];
     if (kind == RepairKind::filled && opening_area(state, loops[i]) > k_sheet_share * part_area[its_part]) {
-      // The filling would be as large as the part itself: not a body, but a baffle.
+      // The filling would be as large as the part itself, so the part is not a body but a baffle.
       if (part_area[its_part] < 0.5 * all_area) is_sheet[its_part] = 1;
       else ++n_open;
       continue;
     }
     if (is_flat) {
-      // The other loops of this plane and part: a ring is filled as one.
+      // The other loops in this plane and of this part are filled together with this loop, so that a ring is filled as one.
       std::vector<Loop> group{loops[i]};
       std::vector<std::size_t> members;
       for (std::size_t j = i + 1; j < loops.size(); ++j) {

@@ -1,5 +1,5 @@
-// Edges with an odd number of facets: at every vertex their number is even, so they form closed polygons. A walk along them that returns to one of its
-// vertices cuts the polygon off there, so each is simple, and two holes that touch in a vertex are two holes.
+// The boundary consists of edges with an odd number of facets. At every vertex the number of such edges is even, so they form closed polygons. If a walk along
+// them returns to one of its vertices, the polygon is cut off there. Each polygon is therefore simple, and two holes that touch in a vertex stay two holes.
 #include <algorithm>
 #include <cmath>
 
@@ -9,7 +9,7 @@ namespace sterna::surfmesh {
 namespace {
 
 struct OddEdge {
-  std::uint32_t from = 0, to = 0;  ///< against the facet
+  std::uint32_t from = 0, to = 0;  ///< direction against the facet
 };
 
 }  // namespace
@@ -28,7 +28,7 @@ std::vector<std::vector<std::uint32_t>> find_loops(const RepairState& state) {
     at[edges[e].to].push_back(e);
   }
   std::vector<char> is_used(edges.size(), 0);
-  std::vector<std::uint32_t> place(state.points.size(), 0xffffffffu);  // index in the walk
+  std::vector<std::uint32_t> place(state.points.size(), 0xffffffffu);  // index of each point in the walk
   std::vector<std::vector<std::uint32_t>> loops;
   for (std::uint32_t start = 0; start < edges.size(); ++start) {
     if (is_used[start]) continue;
@@ -48,7 +48,7 @@ std::vector<std::vector<std::uint32_t>> find_loops(const RepairState& state) {
         place[v] = static_cast<std::uint32_t>(walk.size());
         walk.push_back(v);
       }
-      // Continues along the facets' sense if there is a choice, else to the side that bends back most.
+      // If there is a choice, the walk continues in the direction of the facets, else to the side that bends back most.
       const Vec3 back = state.points[from] - state.points[v];
       std::uint32_t next = 0xffffffffu;
       double best = 1e300;
@@ -67,7 +67,7 @@ std::vector<std::vector<std::uint32_t>> find_loops(const RepairState& state) {
     }
     for (const std::uint32_t v : walk) place[v] = 0xffffffffu;
   }
-  // The sense of most of its edges.
+  // A loop gets the direction of most of its edges.
   for (auto& loop : loops) {
     std::int64_t balance = 0;
     for (std::size_t i = 0; i < loop.size(); ++i)

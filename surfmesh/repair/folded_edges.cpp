@@ -12,7 +12,7 @@ std::int64_t count_folded_edges(const TriMesh& mesh) {
   for (std::size_t i = 0; i < topology.n_halfedges(); ++i) {
     const HalfedgeId h(i), o = topology.twin(h);
     if (!o.is_valid() || o < h) continue;
-    // In projection along the edge: the directions to the two apexes.
+    // Directions from the edge to the two apexes, in projection along the edge.
     const Point &a = mesh.points[topology.from(h)], &b = mesh.points[topology.to(h)];
     const Vec3 along = normalized(b - a);
     const auto across = [&](HalfedgeId e) {

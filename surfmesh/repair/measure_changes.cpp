@@ -1,5 +1,5 @@
-// Facets are sampled at points of a regular pattern. No point of a facet is farther than `sampling` from a sample. The distance to the other surface changes
-// by no more than the distance moved, so no point is farther than the largest sample plus `sampling`.
+// Facets are sampled at points of a regular pattern. No point of a facet is farther than `sampling` from a sample. Between two points the distance to the other
+// surface changes by no more than the distance of the points. Therefore no point is farther than the largest sample plus `sampling`.
 #include <algorithm>
 #include <cmath>
 
@@ -11,9 +11,9 @@
 namespace sterna::surfmesh {
 namespace {
 
-constexpr double k_sampling_share = 2e-3;  ///< relative to L
-constexpr double k_most_samples = 1e5;     ///< approximate total; beyond it the spacing is increased
-constexpr double k_max_steps = 1e4;        ///< in one row
+constexpr double k_sampling_share = 2e-3;  ///< relative to the body length L
+constexpr double k_most_samples = 1e5;     ///< approximate limit for the total number of samples; above it the spacing is increased
+constexpr double k_max_steps = 1e4;        ///< largest number of samples in one row
 
 TriMesh mesh_of_facets(const std::vector<Vec3>& points, const std::vector<Facet>& facets) {
   TriMesh mesh;
@@ -22,7 +22,7 @@ TriMesh mesh_of_facets(const std::vector<Vec3>& points, const std::vector<Facet>
   return mesh;
 }
 
-/// Calls visit for samples of a triangle: rows parallel to its longest edge, a spacing apart, and points in the rows, a spacing apart.
+/// Calls visit for samples of a triangle. The samples lie in rows parallel to its longest edge. The rows, and the samples within a row, are one spacing apart.
 template <class Visit>
 void sample(std::array<Vec3, 3> c, double spacing, const Visit& visit) {
   if (distance(c[1], c[2]) > distance(c[0], c[1])) c = {c[1], c[2], c[0]};
@@ -37,7 +37,7 @@ void sample(std::array<Vec3, 3> c, double spacing, const Visit& visit) {
   }
 }
 
-/// Key of a facet: its corners' coordinates, in any order.
+/// Key of a facet: the coordinates of its corners, independent of their order.
 using FacetKey = std::array<std::array<double, 3>, 3>;
 FacetKey key_of(const std::array<Vec3, 3>& c) {
   FacetKey key;
@@ -46,7 +46,7 @@ FacetKey key_of(const std::array<Vec3, 3>& c) {
   return key;
 }
 
-/// Sorted in ascending order.
+/// Returns the keys in ascending order.
 std::vector<FacetKey> keys_of(const std::vector<Vec3>& points, const std::vector<Facet>& facets) {
   std::vector<FacetKey> keys;
   for (const Facet& f : facets) keys.push_back(key_of({points[f[0]], points[f[1]], points[f[2]]}));
@@ -75,7 +75,7 @@ void measure_changes(RepairState& state, const std::vector<Vec3>& input_points, 
       [&](std::size_t begin, std::size_t end) {
         Farthest far;
         for (std::size_t t = begin; t < end; ++t) {
-          if (std::binary_search(input_keys.begin(), input_keys.end(), key_of(state.corners(t)))) continue;  // unchanged
+          if (std::binary_search(input_keys.begin(), input_keys.end(), key_of(state.corners(t)))) continue;  // the facet is unchanged
           double& value = state.info[t].mark == FacetMark::given ? far.given : far.filled;
           sample(state.corners(t), spacing, [&](const Vec3& p) { value = std::max(value, input.nearest(p).distance); });
         }

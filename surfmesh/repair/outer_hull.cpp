@@ -1,6 +1,6 @@
-// Every facet has two sides. Around an edge, the side of one facet and the side of the next one that face each other bound the same space; so sides form
-// cells. Edge-connected parts have cells of their own. Rays determine which cells of different parts are one, and which is the outside. For closed parts this
-// is equivalent to winding numbers, but it does not depend on the sense of the facets.
+// Every facet has two sides. Around an edge, the sides of two consecutive facets that face each other bound the same space, so sides form cells. Each
+// edge-connected part has its own cells. Rays determine which cells of different parts are the same cell, and which cell is the outside. For closed parts this
+// is equivalent to winding numbers, but it does not depend on the orientation of the facets.
 #include <algorithm>
 #include <cmath>
 #include <memory>
@@ -16,25 +16,25 @@
 namespace sterna::surfmesh {
 namespace {
 
-constexpr int k_rays = 60;                     ///< number tried for each part
-constexpr double k_from_edge = 1e-6;           ///< barycentric: a ray that passes nearer to an edge is inconclusive
-constexpr double k_beside_share = 1e-7;        ///< relative to L: distance from a facet at which its sides are tested
-constexpr double k_most_leaking = 0.005;       ///< fraction of the area: facets that are solid by winding number but have the outside on both sides; with
-                                               ///< more, the hull leaks
-                                               ///< hull leaks
-constexpr double k_least_kept = 0.01;          ///< fraction of the area: with less, there is no body
-constexpr std::size_t k_within_samples = 300;  ///< number of facets of a component that are tested against another
-constexpr double k_contact_share = 2e-3;       ///< relative to a component's length: nearer to the other's surface, it touches that component
-constexpr double k_mostly_within = 0.9;        ///< fraction of the samples
-constexpr double k_grazing = 1e-4;             ///< cosine to the normal below which a ray is inconclusive as well
+constexpr int k_rays = 60;               ///< number of rays tried for each part
+constexpr double k_from_edge = 1e-6;     ///< barycentric coordinate: a ray that passes nearer to an edge is inconclusive
+constexpr double k_beside_share = 1e-7;  ///< relative to L: distance from a facet at which its sides are tested
+/// Fraction of the area of facets that are solid by winding number but have the outside on both sides; with a larger fraction, the hull leaks.
+constexpr double k_most_leaking = 0.005;
+constexpr double k_least_kept = 0.01;          ///< fraction of the area that the hull must keep; with less, there is no body
+constexpr std::size_t k_within_samples = 300;  ///< number of facets of a component that are tested for lying inside another component
+/// Relative to a component's length: if it is nearer than this to the surface of another component, it touches that component.
+constexpr double k_contact_share = 2e-3;
+constexpr double k_mostly_within = 0.9;  ///< fraction of the samples that must be within the other component
+constexpr double k_grazing = 1e-4;       ///< if the cosine of the angle to the normal is below this, the ray is inconclusive as well
 
 struct AroundEdge {
-  std::uint32_t third = 0;  ///< vertex
+  std::uint32_t third = 0;  ///< vertex of the facet opposite to the edge
   std::uint32_t facet = 0;
-  bool is_along = false;  ///< the facet runs from the edge's low to its high vertex
+  bool is_along = false;  ///< the facet runs from the low to the high vertex of the edge
 };
 
-/// Returns the facets at an edge by angle around low -> high, counter-clockwise from the first.
+/// Returns the facets at an edge, sorted by their angle around low -> high, counter-clockwise from the first facet.
 std::vector<AroundEdge> around(const RepairState& state, const EdgeTable& edges, const Edge& edge) {
   std::vector<AroundEdge> list;
   for (const std::uint32_t h : edges.at(edge)) {
@@ -47,7 +47,7 @@ std::vector<AroundEdge> around(const RepairState& state, const EdgeTable& edges,
   const Vec3 axis = normalized(v - u);
   const auto across = [&](const Vec3& p) { return (p - u) - dot(p - u, axis) * axis; };
   const Vec3 first = across(w0);
-  const auto half = [&](const AroundEdge& x) {  // 0: the first's direction, 1: less than half a turn, 2: half, 3: more
+  const auto half = [&](const AroundEdge& x) {  // 0: direction of the first facet, 1: less than half a turn from it, 2: half a turn, 3: more
     const Vec3& p = state.points[x.third];
     const int side = orient3d(u, v, w0, p);
     if (side != 0) return side > 0 ? 1 : 3;
@@ -62,7 +62,7 @@ std::vector<AroundEdge> around(const RepairState& state, const EdgeTable& edges,
   return list;
 }
 
-/// Side 2 f is on the side of the normal of facet f, 2 f + 1 on the other.
+/// Side 2 f is on the side of facet f to which its normal points; 2 f + 1 is the other side.
 std::uint32_t side_ahead(const AroundEdge& x) { return 2 * x.facet + (x.is_along ? 0 : 1); }
 std::uint32_t side_behind(const AroundEdge& x) { return 2 * x.facet + (x.is_along ? 1 : 0); }
 
@@ -149,12 +149,12 @@ Sides find_cells(const RepairState& state, const EdgeTable& edges, const RunCont
   return sides;
 }
 
-/// A component that is connected over edges of two facets.
+/// A component that is connected across edges with two facets.
 struct Body {
-  std::vector<std::pair<std::uint32_t, bool>> facets;  ///< true if the facet must be reversed to point outwards
+  std::vector<std::pair<std::uint32_t, bool>> facets;  ///< facet, and true if it must be reversed to point outwards
   Box box;
-  double volume = 0.0;     ///< signed, in the sense of its first facet
-  bool is_outward = true;  ///< most of its facets point outwards in the file
+  double volume = 0.0;     ///< signed volume, with the orientation of its first facet
+  bool is_outward = true;  ///< most of its facets point outwards in the input
   bool is_closed = true;
 };
 
@@ -208,8 +208,8 @@ bool is_box_within(const Box& inner, const Box& outer, double tolerance) {
 }
 
 struct Within {
-  double share = 0.0;   ///< fraction of the samples
-  bool is_all = false;  ///< contacts count as within
+  double share = 0.0;   ///< fraction of the samples that are within the other component
+  bool is_all = false;  ///< all samples are within the other component or touch it
 };
 
 Within how_within(const RepairState& state, const Body& inner, const TriangleTree& outer) {
@@ -281,7 +281,7 @@ bool keep_outer_hull(RepairState& state, const SolidReference& reference, const 
       if (std::abs(winding[l]->winding_number(p)) > 0.5) return l % 2 == 0;
     return false;
   };
-  std::vector<char> front(state.facets.size()), back(state.facets.size());  // true if the outside is there
+  std::vector<char> front(state.facets.size()), back(state.facets.size());  // per facet: true if the outside is in front of it, or behind it
   double all = 0.0, leaking = 0.0;
   for (std::uint32_t t = 0; t < state.facets.size(); ++t) {
     front[t] = sides.cells.root(2 * t) == outside;

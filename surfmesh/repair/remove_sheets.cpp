@@ -7,10 +7,11 @@
 namespace sterna::surfmesh {
 namespace {
 
-constexpr double k_open_share = 0.9;   ///< relative to the box's diagonal: the open boundary of a flap is longer, that of a body with a hole mostly shorter
+/// Relative to the box's diagonal: the open boundary of a flap is longer than this; that of a body with a hole is mostly shorter.
+constexpr double k_open_share = 0.9;
 constexpr double k_flat_share = 1e-6;  ///< relative to L: largest distance of the vertices of a flat baffle from its plane
 
-/// Returns the pieces that are connected over edges with two facets.
+/// Returns the piece number of each facet. Pieces are connected across edges with two facets.
 std::vector<std::uint32_t> smooth_pieces(const RepairState& state, const EdgeTable& edges) {
   DisjointSets sets(state.facets.size());
   for (const Edge& edge : edges.edges())
@@ -18,7 +19,7 @@ std::vector<std::uint32_t> smooth_pieces(const RepairState& state, const EdgeTab
   return std::move(sets).roots();
 }
 
-/// Removes flaps: pieces with open edges attached to crowded edges, if the rest is closed without them.
+/// Removes flaps if the rest is closed without them. A flap is a piece with open edges that is attached to crowded edges.
 bool remove_flaps(RepairState& state) {
   const EdgeTable edges = state.edges();
   const std::vector<std::uint32_t> piece = smooth_pieces(state, edges);
@@ -52,7 +53,7 @@ bool remove_flaps(RepairState& state) {
     all &= is_flap[t] != 0;
   }
   if (!any || all) return false;
-  // Two flaps at one edge may each be mistaken for the rest of the other: the first is removed, then the next pass decides.
+  // With two flaps at one edge, each may be mistaken for part of the rest. Therefore only the first is removed, and the next pass decides on the other.
   std::vector<char> is_gone(state.facets.size(), 0);
   for (const Edge& edge : edges.edges()) {
     if (edge.count < 3) continue;
@@ -99,7 +100,7 @@ void remove_flat_parts(RepairState& state) {
     is_sheet[t] = is_open[parts.part[t]] && is_flat[parts.part[t]];
     is_kept[t] = !is_sheet[t];
     any |= is_sheet[t] != 0;
-    // A body is closed already: flat open parts beside open parts may be the body's sides.
+    // True if one part is closed. If no part is closed, flat open parts may be the sides of a body.
     has_body |= !is_open[parts.part[t]];
   }
   if (!any || !has_body) return;

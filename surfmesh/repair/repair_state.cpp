@@ -97,7 +97,7 @@ void weld_rounded(RepairState& state, bool is_oriented) {
     sorted.emplace_back(key_of, t);
   }
   std::sort(sorted.begin(), sorted.end());
-  const auto is_even = [](const Facet& f) { return (f[0] < f[1]) + (f[1] < f[2]) + (f[2] < f[0]) == 2; };  // one of the two senses
+  const auto is_even = [](const Facet& f) { return (f[0] < f[1]) + (f[1] < f[2]) + (f[2] < f[0]) == 2; };  // one of the two orientations
   for (std::size_t begin = 0, end = 0; begin < sorted.size(); begin = end) {
     bool is_cap = false;
     std::int64_t balance = 0;

@@ -1,4 +1,4 @@
-// The driver. The steps pass a soup with shared vertices (RepairState); stitch_surface verifies the result.
+// This is the driver. The steps pass on a soup with shared vertices (RepairState); stitch_surface verifies the result.
 #include "surfmesh/repair/repair_surface.h"
 
 #include <algorithm>
@@ -18,9 +18,9 @@ namespace sterna::surfmesh {
 namespace {
 
 constexpr int k_hull_tries = 3;
-constexpr std::int64_t k_most_again = 200;  ///< largest number of crossings for a second attempt
+constexpr std::int64_t k_most_again = 200;  ///< a second attempt is made if there are at most this many crossings
 
-/// Returns true for errors that repair handles; other errors are returned to the caller.
+/// Returns true for errors that the repair handles. Other errors are returned to the caller.
 bool is_reparable(ErrorCode code) {
   return code == ErrorCode::open_surface || code == ErrorCode::non_manifold_surface || code == ErrorCode::self_intersection ||
          code == ErrorCode::not_orientable;
@@ -80,7 +80,7 @@ RepairState first_state(const std::vector<SurfaceSoup>& soups, const StitchOptio
   state.points = std::move(surface.points);
   state.facets = std::move(surface.facets);
   state.info = std::move(info);
-  // Facets without area at best fill T-junctions, which are found separately.
+  // Facets without area fill T-junctions at most. T-junctions are found separately.
   std::vector<char> is_flat(state.facets.size(), 0), is_kept(state.facets.size(), 1);
   for (std::uint32_t t = 0; t < state.facets.size(); ++t) {
     const auto c = state.corners(t);
@@ -104,8 +104,8 @@ bool needs_hull(const RepairState& state, const RunContext& context) {
   return find_crossings(state.points, state.facets, context, 1).total > 0;
 }
 
-/// Cuts crossing facets. If that opens edges or leaves crossings, planes cross that are equal except for rounding: then it cuts again after rounding to a
-/// grid.
+/// Cuts crossing facets. If that opens edges or leaves crossings, the crossing planes are equal except for rounding. In that case the vertices are rounded to a
+/// grid, and the facets are cut again.
 void cut_or_snap(RepairState& state, const RepairOptions& options, const RunContext& context) {
   const auto trouble = [&](const RepairState& of) {
     return static_cast<std::int64_t>(count_open_edges(of)) + find_crossings(of.points, of.facets, context).total;
@@ -119,11 +119,11 @@ void cut_or_snap(RepairState& state, const RepairOptions& options, const RunCont
   if (trouble(snapped) < before) state = std::move(snapped);
 }
 
-/// Cuts crossing facets, takes the outer hull and repairs the resulting defects. \return true if a hull could be taken
+/// Cuts crossing facets, takes the outer hull and repairs the resulting defects. \return true if there is a hull
 bool cut_to_hull(RepairState& state, const RepairOptions& options, const Contacts& contacts, const RunContext& context) {
   const SolidReference first = solid_reference(state, contacts.is_fluid_inside, context);
   for (int round = 0; round < k_hull_tries && needs_hull(state, context); ++round) {
-    // Many crossings that replacement could not repair would only be cut into ever smaller pieces.
+    // If replacement could not repair many crossings, cutting would only produce ever smaller pieces.
     if (round > 0 && find_crossings(state.points, state.facets, context).total > k_most_again) break;
     const SolidReference reference = round == 0 ? first : solid_reference(state, contacts.is_fluid_inside, context);
     cut_or_snap(state, options, context);
@@ -139,7 +139,7 @@ bool cut_to_hull(RepairState& state, const RepairOptions& options, const Contact
 }
 
 void check_options(RepairOptions options) {
-  for (const Option& option : options_of(options)) set_option(option, option.get());  // throws for values out of range
+  for (const Option& option : options_of(options)) set_option(option, option.get());  // set_option throws for values out of range
 }
 
 StitchOptions strictly(StitchOptions stitching) {
@@ -182,7 +182,7 @@ std::string sources_of(const std::vector<SurfaceSoup>& soups) {
   return text;
 }
 
-/// Returns one sentence per kind: number of locations, the largest, the first.
+/// Returns one sentence for each kind of change, with the number of locations, the largest and the first of them.
 std::vector<std::string> tell(const RepairReport& report) {
   static constexpr std::array<const char*, k_repair_kinds> k_words = {"dropped (no area, copies)",
                                                                       "welded within rounding",

@@ -1,5 +1,4 @@
-// Repairs a surface with holes, seams, crossings, baffles and inner walls so that it can be meshed, with as few changes as possible; all changes are
-// reported.
+// Repairs a surface with holes, seams, crossings, baffles and inner walls so that it can be meshed, with as few changes as possible. All changes are reported.
 #pragma once
 
 #include <array>
@@ -17,46 +16,46 @@
 
 namespace sterna::surfmesh {
 
-/// Lengths are fractions of the body length L (the longest side of the box), so that the defaults fit any body.
+/// Lengths are fractions of the body length L (the longest side of the box), so the defaults fit any body.
 struct RepairOptions {
-  double gap = 1e-3;            ///< L; wider seams stay open and are treated as holes
+  double gap = 1e-3;            ///< L; width of the widest seam that is closed; wider seams are treated as holes
   double hole = 0.3;            ///< L; diameter of the largest curved hole that is filled
   double flat_hole = 2.0;       ///< L; the same for holes with a flat boundary
-  int hole_edges = 1000;        ///< edges of the largest hole that is filled
+  int hole_edges = 1000;        ///< number of edges of the largest hole that is filled
   double smallest_part = 1e-3;  ///< L; parts with a smaller box are dropped
   double sliver = 1e-7;         ///< L; shorter edges are collapsed where something was changed
-  double largest_move = 0.01;   ///< L; largest allowed movement of retained facets; more is an error
+  double largest_move = 0.01;   ///< L; largest movement of retained facets; a larger movement is an error
   std::string half = "automatic";
   double half_tolerance = 1e-3;  ///< L; largest distance of the boundary of a half model from its plane
   bool hull = true;
   int rounds = 6;
 };
 
-/// Kind of a local change.
+/// Kind of a local change. The values name what was changed.
 enum class RepairKind {
-  dropped,         ///< facets without area, copies, doubled baffles
-  welded,          ///< vertices within rounding
+  dropped,         ///< facets without area, duplicates, and doubled baffles removed
+  welded,          ///< vertices merged that differ by rounding only
   zipped,          ///< a seam closed
   into_plane,      ///< the boundary of a half model moved into its plane
-  filled,          ///< a hole
-  cut,             ///< facets cut where they cross others
-  removed_sheet,   ///< facets with the fluid on both sides
-  removed_inside,  ///< facets with the fluid on neither side
-  removed_part,    ///< a part too small to matter
-  separated,       ///< vertices or edges with more than two facets split
-  joined,          ///< bodies that touched along edges, over the crevice between them
-  collapsed,       ///< short edges
+  filled,          ///< a hole filled
+  cut,             ///< facets cut where they cross other facets
+  removed_sheet,   ///< facets removed that have the fluid on both sides
+  removed_inside,  ///< facets removed that have the fluid on neither side
+  removed_part,    ///< a part removed because it is very small
+  separated,       ///< vertices or edges split that had more than two facets or several fans
+  joined,          ///< bodies joined that touched along edges, across the crevice between them
+  collapsed,       ///< short edges collapsed
   replaced,        ///< crossing facets removed and the hole filled
-  turned           ///< facets oriented against the others
+  turned           ///< facets reversed that were oriented against the others
 };
 inline constexpr std::size_t k_repair_kinds = 14;
-/// "filled", "removed_sheet" ...
+/// Returns the name of the kind, such as "filled" or "removed_sheet".
 std::string_view to_string(RepairKind kind);
 
 struct RepairChange {
   RepairKind kind = RepairKind::dropped;
   Vec3 position;              ///< m; centre of the changed region
-  double size = 0.0;          ///< m; largest movement (welded, zipped, into_plane, separated, collapsed), else the diameter of the region
+  double size = 0.0;          ///< m; largest movement (welded, zipped, into_plane, separated, collapsed); for other kinds the diameter of the region
   std::int64_t n_facets = 0;  ///< number of facets added, removed, cut or moved
 };
 
@@ -64,29 +63,29 @@ struct RepairChange {
 struct RepairDrawing {
   std::vector<Vec3> points;  ///< m
   std::vector<std::array<std::uint32_t, 3>> triangles;
-  std::vector<std::uint32_t> change;  ///< per triangle: index into RepairReport::changes
+  std::vector<std::uint32_t> change;  ///< per triangle: index of its change in RepairReport::changes
 };
 
-/// The opening of a half model: its boundary lies exactly in the plane.
+/// The opening of a half model. Its boundary lies exactly in the plane.
 struct HalfRim {
   std::string axis;      ///< "x", "y" or "z"
   double at = 0.0;       ///< m
   bool is_above = true;  ///< the body is on the side of larger coordinates
-  double off = 0.0;      ///< m; largest distance of the boundary from the plane before
+  double off = 0.0;      ///< m; largest distance of the boundary from the plane before the repair
   std::int64_t n_vertices = 0;
 };
 
 struct RepairReport {
   StitchReport stitch;                ///< report on the result, which is verified by stitch_surface
-  std::vector<RepairChange> changes;  ///< in chronological order; empty: the input was valid, and the result is bitwise identical
+  std::vector<RepairChange> changes;  ///< in chronological order; empty if the input was valid: then the result is bitwise identical
   std::optional<HalfRim> half;
-  double length = 0.0;       ///< m, L
+  double length = 0.0;       ///< m, body length L
   double moved = 0.0;        ///< m; largest distance of samples of retained facets from the input
-  double from_result = 0.0;  ///< m; largest distance of samples of the result from the input: mostly the middle of the largest filled hole
-  double from_input = 0.0;   ///< m; largest distance of samples of the input from the result: what was removed
-  double sampling = 0.0;     ///< m; sampling error: no point is farther than the figures above plus this
+  double from_result = 0.0;  ///< m; largest distance of samples of the result from the input; mostly at the middle of the largest filled hole
+  double from_input = 0.0;   ///< m; largest distance of samples of the input from the result; largest where parts were removed
+  double sampling = 0.0;     ///< m; sampling error: no point is farther than the distances above plus this value
   RepairDrawing drawing;
-  std::vector<std::string> messages;  ///< one sentence for each kind of change, as logged
+  std::vector<std::string> messages;  ///< one sentence for each kind of change, as written to the log
 
   std::int64_t count(RepairKind kind) const;
 };
@@ -96,40 +95,42 @@ struct RepairResult {
   RepairReport report;
 };
 
-/// Repairs a surface. Steps: weld and drop (as stitch_surface); small parts; seams zipped with a growing tolerance, including T-junctions; baffles; the
-/// opening of a half model recognised and moved into its plane; holes filled, flat ones flat; crossings cut exactly and the outer hull kept (facets with the
-/// fluid on one side); vertices and edges in which the hull touches itself separated; short edges collapsed; facets that still cross after rounding replaced
-/// by a filling, in growing rings. A surface that stitch_surface accepts (without allow_open) is returned bitwise unchanged.
-/// \post closed, or with an open boundary in report.half's plane to the bit; manifold, oriented, without crossings (verified by stitch_surface); patches are
-/// those of the nearest facets of the input.
-/// \throws Error as stitch_surface for remaining defects, with locations and the next step to try; mesh_invalid if the surface would move by more than
+/// Repairs a surface in these steps. (1) Weld vertices and drop facets (as stitch_surface does), drop small parts. (2) Zip seams with a growing tolerance,
+/// including T-junctions. (3) Remove baffles. (4) Recognise the opening of a half model and move it into its plane. (5) Fill holes; holes with a flat boundary
+/// are filled flat. (6) Cut crossings exactly and keep the outer hull (facets with the fluid on one side). (7) Separate vertices and edges in which the hull
+/// touches itself; collapse short edges. (8) Replace facets that still cross after rounding by a filling, in growing rings. A surface that stitch_surface
+/// accepts (without allow_open) is returned bitwise unchanged.
+/// \post The result is closed, or its open boundary lies exactly in the plane of report.half. It is manifold, oriented and without crossings (verified by
+/// stitch_surface). Facets have the patch of the nearest facet of the input.
+/// \throws Error like stitch_surface for remaining defects, with locations and the next step to try; mesh_invalid if the surface would move by more than
 /// allowed
 RepairResult repair_surface(const std::vector<SurfaceSoup>& soups, const StitchOptions& stitching, const RepairOptions& options, const RunContext& context);
 
-/// Diagnosis by the repair steps up to the filling of holes: nothing is cut, no hull is taken, nothing is verified.
+/// Diagnosis by the repair steps up to the filling of holes. Nothing is cut, no hull is taken, and nothing is verified.
 struct RepairForecast {
-  bool is_needed = false;        ///< false: stitch_surface accepts the surface, and the rest is empty
+  bool is_needed = false;        ///< false: stitch_surface accepts the surface, and the other members are empty
   std::string problem;           ///< error of stitch_surface, with its counts
   std::vector<Vec3> places;      ///< m; locations of the first defects
-  std::int64_t n_facets = 0;     ///< with non-zero area, as read
-  double area = 0.0;             ///< m^2, of these facets
+  std::int64_t n_facets = 0;     ///< number of facets as read, with non-zero area
+  double area = 0.0;             ///< m^2, total area of these facets
   double length = 0.0;           ///< m, body length
   std::int64_t n_changes = 0;    ///< number of changed regions in total; 0 for a half model with its boundary in the plane
   std::int64_t n_seams = 0;      ///< number of zipped seams
   std::int64_t n_sheets = 0;     ///< number of removed baffles
-  std::int64_t n_holes = 0;      ///< filled
-  std::int64_t n_fillings = 0;   ///< facets that fill them
-  std::int64_t n_open = 0;       ///< openings that repair does not close: above its limits, or as large as the surface itself
+  std::int64_t n_holes = 0;      ///< number of filled holes
+  std::int64_t n_fillings = 0;   ///< number of facets that fill them
+  std::int64_t n_open = 0;       ///< number of openings that repair does not close, because they exceed its limits or are as large as the surface itself
   double widest_open = 0.0;      ///< m; diagonal of the box of the widest such opening
-  Vec3 widest_place;             ///< m; its middle
-  std::int64_t n_crossings = 0;  ///< pairs of facets that cross or touch after these steps
-  std::int64_t n_crowded = 0;    ///< edges of more than two facets after these steps
+  Vec3 widest_place;             ///< m; middle of that opening
+  std::int64_t n_crossings = 0;  ///< number of pairs of facets that cross or touch after these steps
+  std::int64_t n_crowded = 0;    ///< number of edges with more than two facets after these steps
   std::optional<HalfRim> half;
-  bool is_enough = true;  ///< nothing stays open, and crossings can be cut
+  bool is_enough = true;  ///< true if nothing stays open and crossings can be cut
 };
 
-/// Diagnoses a surface. Mostly takes a small fraction of the time of repair_surface, which may still fail if the hull leaks or rounding leaves crossings.
-/// \throws Error as repair_surface for defects without repair (file_malformed, empty_surface, bad_argument); cancelled
+/// Diagnoses a surface, mostly in a small fraction of the time of repair_surface. The repair itself may still fail if the hull leaks or if rounding leaves
+/// crossings.
+/// \throws Error like repair_surface for defects that cannot be repaired (file_malformed, empty_surface, bad_argument); cancelled
 RepairForecast foresee_repair(const std::vector<SurfaceSoup>& soups, const StitchOptions& stitching, const RepairOptions& options, const RunContext& context);
 
 }  // namespace sterna::surfmesh

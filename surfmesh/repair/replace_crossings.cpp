@@ -6,15 +6,15 @@
 namespace sterna::surfmesh {
 namespace {
 
-constexpr int k_max_rings = 5;            ///< rings of facets around the crossing ones
-constexpr double k_own_hole = 2.0;        ///< L
-constexpr double k_most_replaced = 0.05;  ///< fraction of the facets at one time: more is not a local defect
+constexpr int k_max_rings = 5;            ///< largest number of rings of facets around the crossing facets that are removed
+constexpr double k_own_hole = 2.0;        ///< L: largest hole made by the removal that is filled
+constexpr double k_most_replaced = 0.05;  ///< largest fraction of the facets that is replaced at one time; a larger fraction is not a local defect
 
 }  // namespace
 
 bool replace_crossings(RepairState& state, const RepairOptions& given, const Contacts& contacts, const RunContext& context) {
   RepairOptions options = given;
-  options.hole = options.flat_hole = k_own_hole;  // removed regions are filled again, however long their facets are
+  options.hole = options.flat_hole = k_own_hole;  // removed regions are filled again, whatever their size
   for (int round = 0; round < options.rounds; ++round) {
     if (!find_loops(state).empty()) fill_holes(state, options, RepairKind::replaced, context);
     separate_touching(state, contacts, context);

@@ -1,5 +1,5 @@
-// At an edge with four or more facets, the two facets on the sides of one wedge of the solid stay connected. Each fan of facets connected in this way at a
-// vertex gets its own copy of the vertex; all copies move slightly into their solid, so that they no longer touch.
+// At an edge with four or more facets, the two facets beside one wedge of the solid stay connected. Each fan of facets connected in this way at a vertex gets
+// its own copy of the vertex. All copies move slightly into their solid, so that they no longer touch.
 #include <algorithm>
 #include <array>
 #include <map>
@@ -14,13 +14,14 @@
 namespace sterna::surfmesh {
 namespace {
 
-constexpr double k_apart_share = 1e-5;    ///< relative to L
-constexpr double k_apart_of_edge = 0.02;  ///< relative to the shortest edge at the vertex: no facet is inverted
+constexpr double k_apart_share = 1e-5;    ///< relative to L: distance by which copies are moved apart
+constexpr double k_apart_of_edge = 0.02;  ///< upper limit of that distance relative to the shortest edge at the vertex, so that no facet is inverted
 constexpr double k_join_share = 1e-4;     ///< relative to L: half the width of the bridge between bodies that touch along a line
-constexpr std::size_t k_most_named = 5;   ///< pairs of bodies in warnings
+constexpr std::size_t k_most_named = 5;   ///< largest number of pairs of bodies named in warnings
 constexpr std::uint32_t k_no_partner = 0xffffffffu;
 
-/// Returns the twins of half-edges; at crowded edges by wedges of the solid, at edges in `is_of_fluid` by wedges of the fluid. \pre normals out of the solid
+/// Returns the twins of half-edges. At crowded edges, twins are the facets beside one wedge of the solid; at edges in `is_of_fluid`, those beside one wedge of
+/// the fluid. \pre normals point out of the solid
 std::vector<std::uint32_t> wedge_twins(const RepairState& state, const EdgeTable& edges, const std::vector<char>& is_of_fluid) {
   std::vector<std::uint32_t> twin(3 * state.facets.size(), k_no_partner);
   for (std::size_t i = 0; i < edges.edges().size(); ++i) {
@@ -31,8 +32,8 @@ std::vector<std::uint32_t> wedge_twins(const RepairState& state, const EdgeTable
       twin[at[1]] = at[0];
       continue;
     }
-    // The solid is behind a facet, clockwise around the facet's own direction; the fluid is in front. The partner is the first facet in that direction, which
-    // runs against it.
+    // The solid is behind a facet, clockwise around the direction in which the facet runs along the edge; the fluid is in front. The partner is the first facet
+    // in the searched direction that runs against this facet.
     const Vec3 &u = state.points[edge.low], &v = state.points[edge.high];
     const Vec3 axis = normalized(v - u);
     for (const std::uint32_t h : at) {
@@ -43,7 +44,7 @@ std::vector<std::uint32_t> wedge_twins(const RepairState& state, const EdgeTable
       for (const std::uint32_t g : at) {
         if (g == h || (state.facets[g / 3][g % 3] == edge.low) == is_along) continue;
         const Vec3 other = state.points[state.facets[g / 3][previous_halfedge(g) % 3]] - u;
-        double angle = std::atan2(dot(other, e2), dot(other, e1));  // counter-clockwise around the axis
+        double angle = std::atan2(dot(other, e2), dot(other, e1));  // angle counter-clockwise around the axis
         if (is_along != (!is_of_fluid.empty() && is_of_fluid[i])) angle = -angle;
         if (angle <= 0.0) angle += 6.283185307179586;
         if (angle < best) {
@@ -53,7 +54,7 @@ std::vector<std::uint32_t> wedge_twins(const RepairState& state, const EdgeTable
       }
     }
     for (const std::uint32_t h : at)
-      if (twin[h] != k_no_partner && twin[twin[h]] != h) twin[h] = k_no_partner;  // facets do not alternate: left to the final check
+      if (twin[h] != k_no_partner && twin[twin[h]] != h) twin[h] = k_no_partner;  // facets do not alternate; the final check reports such edges
   }
   return twin;
 }
@@ -65,10 +66,10 @@ std::vector<std::vector<std::uint32_t>> corners_of(const RepairState& state) {
   return corners_at;
 }
 
-/// Returns the corners at a vertex that are connected over twins.
+/// Returns the fans at a vertex: the corners that are connected through twins.
 std::vector<std::vector<std::uint32_t>> fans_at(const RepairState& state, const std::vector<std::uint32_t>& twin,
                                                 const std::vector<std::uint32_t>& corners_at_v, std::uint32_t v) {
-  std::map<std::uint32_t, std::uint32_t> fan;  // by half-edge
+  std::map<std::uint32_t, std::uint32_t> fan;  // fan number by half-edge
   std::vector<std::vector<std::uint32_t>> fans;
   for (const std::uint32_t start : corners_at_v) {
     if (fan.count(start)) continue;
@@ -79,7 +80,7 @@ std::vector<std::vector<std::uint32_t>> fans_at(const RepairState& state, const 
       const std::uint32_t h = stack.back();
       stack.pop_back();
       members.push_back(h);
-      // The neighbours over both edges of this corner, whatever their sense.
+      // The neighbours across both edges of this corner, whatever their orientation.
       for (const std::uint32_t over : {previous_halfedge(h), h}) {
         if (twin[over] == k_no_partner) continue;
         const std::uint32_t facet = twin[over] / 3;
@@ -94,7 +95,7 @@ std::vector<std::vector<std::uint32_t>> fans_at(const RepairState& state, const 
   return fans;
 }
 
-/// Returns the body number of each facet: connected over twins.
+/// Returns the body number of each facet. The facets of a body are connected through twins.
 std::vector<std::uint32_t> bodies_over(const RepairState& state, const std::vector<std::uint32_t>& twin) {
   std::vector<std::uint32_t> body(state.facets.size(), k_no_partner);
   std::vector<std::uint32_t> stack;
@@ -117,7 +118,7 @@ std::vector<std::uint32_t> bodies_over(const RepairState& state, const std::vect
   return body;
 }
 
-/// Returns a flag per edge: four or more facets of several bodies.
+/// Returns a flag for each edge: true if it has four or more facets that belong to several bodies.
 std::vector<char> contacts_of(const EdgeTable& edges, const std::vector<std::uint32_t>& body) {
   std::vector<char> is_contact(edges.edges().size(), 0);
   for (std::size_t i = 0; i < is_contact.size(); ++i) {
@@ -133,7 +134,7 @@ std::size_t count_crowded(const EdgeTable& edges) {
 
 /// Adds a vertex in the middle of each of these edges, so that the edge can be opened or joined there while its ends stay unchanged.
 void split_edges(RepairState& state, const EdgeTable& edges, const std::vector<char>& is_split) {
-  std::vector<std::uint32_t> middle(3 * state.facets.size(), k_no_partner);  // of half-edges
+  std::vector<std::uint32_t> middle(3 * state.facets.size(), k_no_partner);  // vertex in the middle of each half-edge
   for (std::size_t i = 0; i < is_split.size(); ++i) {
     if (!is_split[i]) continue;
     const Edge& edge = edges.edges()[i];
@@ -142,7 +143,7 @@ void split_edges(RepairState& state, const EdgeTable& edges, const std::vector<c
     for (const std::uint32_t h : edges.at(edge)) middle[h] = number;
   }
   for (std::size_t t = 0, n = state.facets.size(); t < n; ++t) {
-    // The corner from which a piece is cut lies between two sides. Pieces are cut while a side has a middle; the rest keeps the facet's number.
+    // Pieces are cut off at corners between two sides with a middle vertex. Cutting ends when no side has a middle; the rest keeps the number of the facet.
     std::vector<std::uint32_t> polygon;
     for (std::size_t k = 0; k < 3; ++k) {
       polygon.push_back(state.facets[t][k]);
@@ -151,7 +152,7 @@ void split_edges(RepairState& state, const EdgeTable& edges, const std::vector<c
     if (polygon.size() == 3) continue;
     state.info[t].is_touched = true;
     const FacetInfo info = state.info[t];
-    if (polygon.size() == 4) {  // from the middle to the opposite corner
+    if (polygon.size() == 4) {  // cut from the middle vertex to the opposite corner
       const auto m = static_cast<std::size_t>(
           std::ranges::find_if(polygon, [&](std::uint32_t v) { return v != state.facets[t][0] && v != state.facets[t][1] && v != state.facets[t][2]; }) -
           polygon.begin());
@@ -167,7 +168,7 @@ void split_edges(RepairState& state, const EdgeTable& edges, const std::vector<c
       for (std::size_t k = 0; k < 3; ++k) state.add({corners[k], m[k], m[(k + 2) % 3]}, info);
       continue;
     }
-    for (std::size_t k = 0; k < 3; ++k) {  // two sides beside corner k + 1
+    for (std::size_t k = 0; k < 3; ++k) {  // the two sides at corner k + 1
       if (m[k] == k_no_partner || m[(k + 1) % 3] == k_no_partner) continue;
       state.facets[t] = {m[k], corners[(k + 1) % 3], m[(k + 1) % 3]};
       state.add({corners[k], m[k], m[(k + 1) % 3]}, info);
@@ -176,7 +177,8 @@ void split_edges(RepairState& state, const EdgeTable& edges, const std::vector<c
   }
 }
 
-/// Returns a flag per edge: crowded, and neither end has separate fans for the facets there, so that opening the ends would leave the edge crowded.
+/// Returns a flag for each edge. It is true if the edge is crowded and the facets at the edge do not have separate fans at either end, so that opening the ends
+/// would leave the edge crowded.
 std::vector<char> closed_contacts(const RepairState& state, const EdgeTable& edges, const std::vector<std::uint32_t>& twin) {
   std::vector<char> is_closed(edges.edges().size(), 0);
   if (count_crowded(edges) == 0) return is_closed;
@@ -189,7 +191,7 @@ std::vector<char> closed_contacts(const RepairState& state, const EdgeTable& edg
   return is_closed;
 }
 
-/// Logs a warning with the names of parts that touch each other at a crowded edge of one body: a cavity at the outer shell, a body in a duct at its wall.
+/// Logs a warning with the names of parts that touch at a crowded edge of one body, such as a cavity at the outer shell, or a body in a duct at its wall.
 void warn_of_tangent(RepairState& state, const EdgeTable& edges, const std::vector<char>& is_contact, const Contacts& contacts) {
   if (count_crowded(edges) == 0) return;
   WorkingSurface surface;
@@ -200,7 +202,7 @@ void warn_of_tangent(RepairState& state, const EdgeTable& edges, const std::vect
     Vec3 place;
     std::array<std::uint32_t, 2> patch{};
   };
-  std::map<std::array<std::uint32_t, 2>, Contact> pairs;  // of parts
+  std::map<std::array<std::uint32_t, 2>, Contact> pairs;  // by the numbers of the two parts
   for (std::size_t i = 0; i < is_contact.size(); ++i) {
     const Edge& edge = edges.edges()[i];
     if (is_contact[i] || edge.count < 4) continue;
@@ -225,7 +227,7 @@ void warn_of_tangent(RepairState& state, const EdgeTable& edges, const std::vect
   }
 }
 
-/// Moves one fan of facets at a vertex to a location, with a copy of the vertex if another fan keeps it.
+/// Moves one fan of facets at a vertex to a location. If another fan keeps the vertex, this fan gets a copy.
 void move_fan(const std::vector<std::uint32_t>& fan, std::uint32_t v, const Vec3& to, bool is_copy, RepairState& state) {
   std::uint32_t own = v;
   if (is_copy) {
@@ -240,17 +242,17 @@ void move_fan(const std::vector<std::uint32_t>& fan, std::uint32_t v, const Vec3
   }
 }
 
-/// Joins bodies over the crevice at these edges: facets on the two sides of one wedge of the fluid stay connected, and the vertices move into that wedge.
+/// Joins bodies across the crevice at these edges. Facets beside one wedge of the fluid stay connected, and the vertices move into that wedge.
 void join_over(RepairState& state, const EdgeTable& edges, const std::vector<char>& is_contact) {
   const std::vector<std::uint32_t> twin = wedge_twins(state, edges, is_contact);
-  std::vector<char> is_at_contact(3 * state.facets.size(), 0);  // half-edges
+  std::vector<char> is_at_contact(3 * state.facets.size(), 0);  // flag of each half-edge
   for (std::size_t i = 0; i < is_contact.size(); ++i)
     if (is_contact[i])
       for (const std::uint32_t h : edges.at(edges.edges()[i])) is_at_contact[h] = 1;
   const std::vector<std::vector<std::uint32_t>> corners_at = corners_of(state);
   const std::vector<Vec3> before = state.points;
   const std::vector<Facet> facets = state.facets;
-  // Direction into the facet, across its side.
+  // Returns the direction from a side into its facet, at right angles to the side.
   const auto into = [&](std::uint32_t h) {
     const Vec3 &a = before[facets[h / 3][h % 3]], &b = before[facets[h / 3][next_halfedge(h) % 3]], &c = before[facets[h / 3][previous_halfedge(h) % 3]];
     const Vec3 axis = normalized(b - a);
@@ -282,7 +284,7 @@ void join_over(RepairState& state, const EdgeTable& edges, const std::vector<cha
   }
 }
 
-/// Returns the patch of most facets of a body.
+/// Returns the name of the patch to which most facets of a body belong.
 std::string name_of_body(const RepairState& state, const std::vector<std::uint32_t>& body, std::uint32_t number, const std::vector<std::string>& names) {
   std::map<std::uint32_t, std::size_t> n;
   for (std::size_t t = 0; t < body.size(); ++t)
@@ -312,7 +314,7 @@ void warn_of_opened(RepairState& state, const EdgeTable& edges, const std::vecto
   }
 }
 
-/// Joins bodies that touch along edges. \return true if nothing touches there any more, and nothing new crosses
+/// Joins bodies that touch along edges. \return true if nothing touches there afterwards, and nothing new crosses
 bool join_contacts(RepairState& state, const EdgeTable& edges, const std::vector<char>& is_contact, const RunContext& context) {
   RepairState joined = state;
   split_edges(joined, edges, is_contact);

@@ -1,6 +1,7 @@
-// For each tolerance: boundary vertices near the middle of another boundary's edge split that edge (no vertex moves). Then the nearest pairs of boundary
-// vertices are merged at their midpoint, if the boundaries continue beside them in the same way. A pair is refused if it would invert a facet, crowd an edge,
-// or if the two are farther from each other than half of their boundary edges: features are larger than gaps.
+// For each tolerance there are two steps. First, a boundary vertex near the middle of another boundary's edge splits that edge; no vertex moves. Then the
+// nearest pairs of boundary vertices are merged at their midpoint, if the boundaries continue beside them in the same way. A pair is refused if merging would
+// invert a facet or crowd an edge. It is also refused if its vertices are farther apart than half of their boundary edges, because features are larger than
+// gaps.
 #include <algorithm>
 #include <map>
 #include <set>
@@ -15,18 +16,18 @@
 namespace sterna::surfmesh {
 namespace {
 
-constexpr double k_first_share = 1e-9;   ///< relative to L
-constexpr double k_growth = 4.0;         ///< growth of the tolerance
-constexpr int k_tries = 4;               ///< rounds at one tolerance
+constexpr double k_first_share = 1e-9;   ///< relative to L: first tolerance
+constexpr double k_growth = 4.0;         ///< factor from one tolerance to the next
+constexpr int k_tries = 4;               ///< largest number of rounds at one tolerance
 constexpr double k_feature_share = 0.5;  ///< relative to the shortest boundary edge: pairs farther apart are no seam
 constexpr double k_turn_cosine = 0.5;    ///< a facet that turns by more than 60 degrees would be damaged
 constexpr std::uint32_t k_nobody = 0xffffffffu;
 
 struct Rims {
-  std::vector<std::uint32_t> halfedges;                ///< half-edges of edges with one facet
+  std::vector<std::uint32_t> halfedges;                ///< half-edges on edges with one facet
   std::vector<std::uint32_t> vertices;                 ///< ascending
-  std::vector<std::vector<std::uint32_t>> neighbours;  ///< per vertex of the surface, along open boundaries
-  std::vector<double> shortest;                        ///< boundary edge at a vertex, m
+  std::vector<std::vector<std::uint32_t>> neighbours;  ///< for each vertex of the surface: its neighbours along open boundaries
+  std::vector<double> shortest;                        ///< m, shortest boundary edge at each vertex
 };
 
 Rims find_rims(const RepairState& state) {
@@ -54,8 +55,8 @@ Box grown(Box box, double by) {
   return box;
 }
 
-/// Splits boundary edges at vertices of other boundaries: one split per edge and round, one edge per round for facets with several boundary edges. \return
-/// number of splits
+/// Splits boundary edges at vertices of other boundaries. In one round each edge is split at most once, and a facet with several boundary edges is split at one
+/// of them. \return number of splits
 std::size_t split_at_vertices(RepairState& state, double tolerance, const RunContext& context) {
   const Rims rims = find_rims(state);
   std::vector<Box> boxes;
@@ -71,7 +72,7 @@ std::size_t split_at_vertices(RepairState& state, double tolerance, const RunCon
     std::uint32_t halfedge = 0, vertex = 0;
     Vec3 foot;
   };
-  std::map<std::uint32_t, Split> best;  // by facet
+  std::map<std::uint32_t, Split> best;  // best split by facet
   for (const std::uint32_t a : rims.vertices) {
     const Vec3& p = state.points[a];
     Split nearest{.distance = tolerance, .halfedge = k_nobody, .vertex = a, .foot = {}};
@@ -148,7 +149,7 @@ std::vector<Pair> near_pairs(const RepairState& state, const Rims& rims, double 
   return pairs;
 }
 
-/// Joins pairs if that is harmless. \return the joined pairs
+/// Joins the pairs whose merging does no damage. \return the joined pairs
 std::vector<Pair> join_pairs(RepairState& state, std::vector<Pair> pairs) {
   const auto count_open = [](const RepairState& of) {
     std::size_t n = 0;

@@ -11,7 +11,7 @@
 namespace sterna::surfmesh {
 namespace {
 
-/// For each facet the first one with the same vertices (itself if there is none), and a flag for the existence of others.
+/// For each facet the first facet with the same vertices (the facet itself if there is none), and a flag that there are several.
 struct Copies {
   std::vector<std::uint32_t> first;
   std::vector<char> is_doubled;
@@ -23,7 +23,7 @@ Copies find_copies(const WorkingSurface& surface, const EdgeTable& edges) {
   copies.first.resize(surface.n_facets());
   for (std::uint32_t t = 0; t < surface.n_facets(); ++t) copies.first[t] = t;
   copies.is_doubled.assign(surface.n_facets(), 0);
-  std::vector<std::pair<std::uint32_t, std::uint32_t>> opposite;  // third vertex, facet
+  std::vector<std::pair<std::uint32_t, std::uint32_t>> opposite;  // third vertex of a facet, and the facet
   for (const Edge& edge : edges.edges()) {
     if (edge.count < 2) continue;
     opposite.clear();
@@ -43,7 +43,7 @@ Copies find_copies(const WorkingSurface& surface, const EdgeTable& edges) {
   return copies;
 }
 
-/// Facets (first ones only) of the patch of doubled facets around `start`, and a flag that the rest of the surface is closed without it.
+/// First facets of a patch of doubled facets around `start`, and a flag that the rest of the surface is closed without the patch.
 struct DoubledPatch {
   std::vector<std::uint32_t> facets;
   bool is_redundant = false;
@@ -115,7 +115,7 @@ void drop_doubled_facets(WorkingSurface& surface, StitchReport& report) {
 }
 
 ThinParts find_thin_parts(const std::vector<Vec3>& points, const std::vector<Facet>& facets, const EdgeTable& edges, double length) {
-  constexpr double k_least_thickness = 1e-9;  // rounding of coordinates, and of the volume, is below it
+  constexpr double k_least_thickness = 1e-9;  // larger than the rounding errors of coordinates and volume
   ThinParts thin{.is_thin = std::vector<char>(facets.size(), 0)};
   const Parts parts = connected_parts(facets.size(), edges);
   if (parts.count < 2) return thin;
@@ -154,7 +154,8 @@ bool drop_parts_without_thickness(WorkingSurface& surface, const EdgeTable& edge
   const ThinParts thin = find_thin_parts(surface.points, surface.facets, edges);
   if (thin.count == 0) return false;
   const auto first = static_cast<std::size_t>(std::ranges::find(thin.is_thin, 1) - thin.is_thin.begin());
-  report.n_duplicate_removed += std::ranges::count(thin.is_thin, 1);  // a baffle whose two sides have different triangles; readers compare the remaining facets
+  // Such a part is a baffle whose two sides have different triangles; the file readers compare the number of remaining facets.
+  report.n_duplicate_removed += std::ranges::count(thin.is_thin, 1);
   report.messages.push_back("dropped " + count_of(thin.count, "closed part", "closed parts") + " without thickness (" +
                             count_of(std::ranges::count(thin.is_thin, 1), "facet", "facets") + "), the first at " +
                             format_point(surface.metres(surface.corners(first)[0])));

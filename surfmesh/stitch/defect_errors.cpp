@@ -14,12 +14,12 @@
 namespace sterna::surfmesh {
 namespace {
 
-/// Remedy to try first (docs/dirty_surfaces.md).
+/// Remedy that users should try first (docs/dirty_surfaces.md).
 const std::string k_repair_hint = "`sterna repair`, or --auto (auto = true of read_surface), repairs the surface; `sterna inspect` shows the steps";
-/// Largest number of boundary edges among which partners are sought for the hint; the search is quadratic (0.1 s at this size).
+/// Largest number of boundary edges for which the hint compares all pairs of edges. This takes 0.1 s at this number and grows with its square.
 constexpr std::size_t k_max_matching = 5000;
-/// Boundary edges match if their ends are nearer than this fraction of the shortest boundary edge: then a tolerance that closes the gap collapses none of
-/// them.
+/// Two boundary edges match if their ends are nearer to each other than this fraction of the shortest boundary edge. A tolerance that closes such a gap
+/// collapses no boundary edge.
 constexpr double k_near_match = 0.5;
 
 std::string list_sources(const WorkingSurface& surface) {
@@ -37,7 +37,7 @@ ErrorInfo start_error(ErrorCode code, const WorkingSurface& surface) {
   return info;
 }
 
-/// Returns "facet 12", with several files "facet 12 of wing.stl"; counted from 1 as in STL viewers.
+/// Returns a name such as "facet 12", or with several files "facet 12 of wing.stl". Facets are counted from 1 as in STL viewers.
 std::string facet_name(const WorkingSurface& surface, std::uint32_t facet) {
   const FacetOrigin& origin = surface.origin[facet];
   std::string name = "facet " + std::to_string(origin.facet + 1);
@@ -72,7 +72,7 @@ void add_facet(const WorkingSurface& surface, std::uint32_t facet, TroubleGeomet
 
 double length(const WorkingSurface& surface, const Edge& edge) { return surface.to_metres * distance(surface.points[edge.low], surface.points[edge.high]); }
 
-/// Counts the connected chains of boundary edges, i.e. the holes (two that touch count as one).
+/// Counts the connected chains of boundary edges, which are the holes. Two holes that touch count as one.
 std::int64_t count_holes(const std::vector<Edge>& boundary, std::size_t n_points) {
   DisjointSets chains(n_points);
   std::int64_t n = 0;
@@ -86,7 +86,7 @@ std::int64_t count_holes(const std::vector<Edge>& boundary, std::size_t n_points
   return n;
 }
 
-/// Largest gap over the boundary edges that have a near partner, metres, and their number.
+/// Largest gap in metres over the boundary edges that have a partner nearby, and the number of such edges.
 struct GapMatch {
   std::int64_t n_matched = 0;
   double largest_gap = 0.0;
@@ -124,7 +124,7 @@ std::string in_addition(const std::vector<std::string>& others) {
   return text;
 }
 
-/// Returns the counts of the defects other than the reported one.
+/// Returns the counts of all defects except the reported one.
 std::vector<std::string> other_defects(const Defects& defects, const Orientation& orientation, bool boundary, bool pinched, bool conflicts) {
   std::vector<std::string> others;
   if (boundary && !defects.boundary.empty()) others.push_back(count_of(static_cast<std::int64_t>(defects.boundary.size()), "boundary edge", "boundary edges"));

@@ -10,10 +10,10 @@
 
 namespace sterna::surfmesh {
 
-/// Throws for the first of these defects that applies; the error text names the others:
+/// Throws for the first of the following defects that applies. The error text names the other ones:
 ///   1. crowded edges: non_manifold_surface, places = crowded edges + pinched vertices;
-///   2. boundary edges (unless open surfaces are allowed): open_surface, places = edges;
-///   3. pinched vertices: non_manifold_surface, places = vertices;
+///   2. boundary edges (unless open surfaces are allowed): open_surface, places = boundary edges;
+///   3. pinched vertices: non_manifold_surface, places = pinched vertices;
 ///   4. no consistent orientation: not_orientable, places = components.
 void throw_on_defects(const WorkingSurface& surface, const EdgeTable& edges, const Defects& defects, const Orientation& orientation,
                       const StitchOptions& options, const RunContext& context);

@@ -11,7 +11,7 @@ namespace sterna::surfmesh {
 EdgeTable::EdgeTable(const std::vector<Facet>& facets, std::size_t n_points) {
   const std::size_t n = 3 * facets.size();
   if (n >= HalfedgeId::k_invalid) throw_id_overflow(n);
-  // Counting sort by the lower vertex; the few half-edges at one vertex are then sorted by (higher vertex, half-edge).
+  // Counting sort by the lower vertex. The few half-edges at one vertex are then sorted by (higher vertex, half-edge).
   struct Entry {
     std::uint32_t high, halfedge;
     bool operator<(const Entry& b) const { return high != b.high ? high < b.high : halfedge < b.halfedge; }
@@ -50,7 +50,7 @@ Parts connected_parts(std::size_t n_facets, const EdgeTable& edges) {
   Parts parts;
   parts.part.resize(n_facets);
   for (std::uint32_t i = 0; i < n_facets; ++i) {
-    const std::uint32_t root = sets.root(i);  // the lowest facet of the part, so already numbered
+    const std::uint32_t root = sets.root(i);  // the root is the lowest facet of the part, so it already has a number
     parts.part[i] = root == i ? parts.count++ : parts.part[root];
   }
   return parts;

@@ -1,4 +1,4 @@
-// Private to surfmesh/stitch: the edges of a facet set with all facets at each edge (any number), and the defects that follow from these numbers.
+// Private to surfmesh/stitch: the edges of a facet set with all facets at each edge (any number), and the defects that follow from the numbers of facets.
 #pragma once
 
 #include <cstdint>
@@ -24,19 +24,19 @@ class EdgeTable {
   EdgeTable(const std::vector<Facet>& facets, std::size_t n_points);
 
   std::span<const Edge> edges() const { return edges_; }
-  /// Half-edges along an edge, in ascending order.
+  /// Returns the half-edges along an edge, in ascending order.
   std::span<const std::uint32_t> at(const Edge& edge) const { return {halfedges_.data() + edge.first, edge.count}; }
   const Edge& edge_of(std::uint32_t halfedge) const { return edges_[halfedge2edge_[halfedge]]; }
 
  private:
-  std::vector<Edge> edges_;  ///< by ascending (low, high)
+  std::vector<Edge> edges_;  ///< sorted by ascending (low, high)
   std::vector<std::uint32_t> halfedges_;
   std::vector<std::uint32_t> halfedge2edge_;
 };
 
-/// Numbers of the parts that are connected over shared edges (any number of facets at an edge), in the order of their first facets.
+/// Part number of each facet. Parts are connected across shared edges with any number of facets, and are numbered in the order of their first facets.
 struct Parts {
-  std::vector<std::uint32_t> part;  ///< per facet
+  std::vector<std::uint32_t> part;  ///< part of each facet
   std::uint32_t count = 0;
 };
 Parts connected_parts(std::size_t n_facets, const EdgeTable& edges);
@@ -44,7 +44,7 @@ Parts connected_parts(std::size_t n_facets, const EdgeTable& edges);
 struct Defects {
   std::vector<Edge> boundary;          ///< edges with one facet
   std::vector<Edge> crowded;           ///< edges with more than two facets
-  std::vector<std::uint32_t> pinched;  ///< vertices with more than one fan of facets (fans are connected over any shared edge)
+  std::vector<std::uint32_t> pinched;  ///< vertices with more than one fan of facets (facets of a fan are connected through any shared edges)
 };
 Defects find_defects(const std::vector<Facet>& facets, std::size_t n_points, const EdgeTable& edges);
 

@@ -1,8 +1,9 @@
-// Facets of zero area with three different vertices: p, q and r between them. Removing one would open the surface (p-q on one side, p-r-q on the other);
-// flipping p-q to r-d, d the far vertex of the neighbour, keeps the surface as a point set, because r lies on p-q exactly.
-//   1. A flip against a neighbour with area leaves one flat facet less.
-//   2. A flip between two flat facets that share their long edge leaves two with a shorter one.
-// So (number of flat facets, sum of edge lengths) decreases and the loop ends.
+// Treats facets of zero area with three different vertices: p, q, and r between them. Removing such a facet would open the surface (p-q on one side, p-r-q on
+// the other). The edge p-q is flipped to r-d instead, where d is the far vertex of the neighbour. The surface stays the same set of points, because r lies
+// exactly on p-q.
+//   1. A flip with a neighbour that has an area leaves one flat facet less.
+//   2. A flip between two flat facets that share their long edge leaves two flat facets with a shorter long edge. The pair (number of flat facets, sum of edge
+// lengths) therefore decreases, and the loop ends.
 #include <algorithm>
 
 #include "geom/math/predicates.h"
@@ -14,7 +15,8 @@ namespace {
 
 constexpr std::uint32_t k_no_twin = 0xffffffffu;
 
-/// Error bound of the cross product's components, relative to the largest edge component squared: 3 roundings of 2^-53 in each of two products, rounded up.
+/// Error bound for the components of a cross product, relative to the square of the largest edge component. It covers three roundings of 2^-53 in each of two
+/// products, rounded up.
 constexpr double k_cross_error = 16.0 * 0x1p-53;
 
 bool is_between(const Vec3& r, const Vec3& p, const Vec3& q) {
@@ -45,7 +47,7 @@ class FlatFlipper {
     return is_collinear(c[0], c[1], c[2]);
   }
 
-  /// Flips the long edge of a flat facet if allowed in the current state; `with_flat`: the neighbour may be flat, too.
+  /// Flips the long edge of a flat facet if the current state allows it. With `with_flat` the neighbour may be flat, too.
   bool flip(std::uint32_t facet, bool with_flat) {
     const std::uint32_t h = long_edge(facet);
     const std::uint32_t g = twin_[h];
@@ -53,7 +55,7 @@ class FlatFlipper {
     const std::uint32_t p = from(h), q = from(next_halfedge(h)), r = from(previous_halfedge(h)), d = from(previous_halfedge(g));
     if (r == d || is_edge(r, d)) return false;
     if (is_flat(g / 3) && !(with_flat && long_edge(g / 3) == g)) return false;
-    // (p, q, r) and (q, p, d) become (r, p, d) and (d, q, r).
+    // The facets (p, q, r) and (q, p, d) become (r, p, d) and (d, q, r).
     const std::uint32_t t = h / 3, u = g / 3;
     const std::uint32_t qr = twin_[next_halfedge(h)], rp = twin_[previous_halfedge(h)];
     const std::uint32_t pd = twin_[next_halfedge(g)], dq = twin_[previous_halfedge(g)];
@@ -81,7 +83,7 @@ class FlatFlipper {
     if (g != k_no_twin) twin_[g] = h;
   }
 
-  /// Returns the half-edge whose ends have the third vertex between them.
+  /// Returns the half-edge between whose ends the third vertex lies.
   std::uint32_t long_edge(std::uint32_t facet) const {
     for (std::uint32_t k = 0; k < 3; ++k) {
       const std::uint32_t h = 3 * facet + k;
@@ -90,7 +92,7 @@ class FlatFlipper {
     return 3 * facet;
   }
 
-  /// Returns true if a facet joins the two vertices; walks the fan of `v` in both senses, as a boundary may interrupt it.
+  /// Returns true if a facet contains both vertices. The fan of `v` is traversed in both directions, because a boundary may interrupt it.
   bool is_edge(std::uint32_t v, std::uint32_t w) const {
     const std::uint32_t start = first_out_[v];
     const auto has_w = [&](std::uint32_t h) { return from(next_halfedge(h)) == w || from(previous_halfedge(h)) == w; };
@@ -138,7 +140,7 @@ std::vector<std::uint32_t> flip_flat_facets(WorkingSurface& surface, StitchRepor
     for (const std::uint32_t t : flat) {
       // An earlier flip of this round may have given the facet an area.
       if (!flipper.is_flat(t)) continue;
-      // Only one of two flat facets is flipped, then flips against neighbours with area are tried again.
+      // After a flip of two flat facets, flips with neighbours that have an area are tried again first.
       if (!(with_flat && has_flipped)) has_flipped |= flipper.flip(t, with_flat);
       if (flipper.is_flat(t)) left.push_back(t);
     }

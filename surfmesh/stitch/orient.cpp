@@ -12,18 +12,18 @@
 namespace sterna::surfmesh {
 namespace {
 
-/// A winding number is an integer up to rounding; half-way separates 0 from +-1.
+/// A winding number is an integer except for rounding. Half a turn separates 0 from +-1.
 constexpr double k_half_turn = 0.5;
 constexpr std::uint32_t k_none = 0xffffffffu;
 
 struct Component {
   std::vector<std::uint32_t> facets;
   Box box;
-  double volume = 0.0;        ///< signed, with consistent orientation, file units cubed
-  double area_as_read = 0.0;  ///< area of facets with the sense of the first facet minus the others'
+  double volume = 0.0;        ///< signed volume with consistent orientation, in cubed file units
+  double area_as_read = 0.0;  ///< area of the facets oriented like the first facet, minus the area of the others
   bool is_closed = true;
-  std::uint32_t depth = 0;        ///< number of closed components around it
-  std::uint32_t parent = k_none;  ///< the innermost of these components
+  std::uint32_t depth = 0;        ///< number of closed components that enclose it
+  std::uint32_t parent = k_none;  ///< the innermost of the enclosing components
 };
 
 /// Returns the solid angle of a triangle as seen from p (van Oosterom & Strackee 1983).
@@ -97,7 +97,7 @@ void find_nesting(const WorkingSurface& surface, const Orientation& orientation,
   }
 }
 
-/// Returns the patch of most of the component's facets.
+/// Returns the name of the patch to which most facets of the component belong.
 std::string name_of_component(const WorkingSurface& surface, const Component& component, const std::vector<std::string>& names) {
   std::map<std::uint32_t, std::size_t> n;
   for (const std::uint32_t t : component.facets) ++n[surface.patch[t]];
@@ -107,7 +107,7 @@ std::string name_of_component(const WorkingSurface& surface, const Component& co
   return most < names.size() ? names[most] : "surface";
 }
 
-/// Returns true if a component and the one around it both have their normals outwards in the file, or both inwards.
+/// Returns true if, in the file, the normals of a component and of the component around it both point outwards or both point inwards.
 bool is_same_sense(const std::vector<Component>& components, const Orientation& orientation, std::uint32_t i) {
   const auto is_outward = [&](const Component& component) {
     std::int64_t n_flipped = 0;
@@ -169,7 +169,7 @@ void orient_outward(WorkingSurface& surface, const EdgeTable& edges, const Orien
     const bool is_hollow = (component.depth % 2 == 1) != is_fluid_inside;  // the component encloses the fluid, or a region that the fluid does not reach
     const bool is_inside_out = component.is_closed ? (component.volume > 0.0) == is_hollow : component.area_as_read < 0.0;
     const std::int64_t n_turned = is_inside_out ? n - n_minority : n_minority;
-    // More than half reversed: the file's sense was inside out, and the rest was inconsistent.
+    // More than half of the facets are reversed: the file was inside out, and the rest was inconsistent.
     if (2 * n_turned > n) {
       ++n_inverted;
       n_inverted_facets += n;

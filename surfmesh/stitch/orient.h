@@ -1,4 +1,4 @@
-// Private to surfmesh/stitch: consistent orientation of all facets of a component, with normals out of the body.
+// Private to surfmesh/stitch: orients all facets of a component consistently, with normals out of the body.
 #pragma once
 
 #include "geom/base/run_context.h"
@@ -8,19 +8,20 @@
 
 namespace sterna::surfmesh {
 
-/// Orientation found by flood fill, relative to that of the file.
+/// Orientation found by flood fill, relative to the orientation in the file.
 struct Orientation {
-  std::vector<std::uint32_t> component;  ///< per facet; connected over edges with two facets, numbered by first facet
+  std::vector<std::uint32_t> component;  ///< component of each facet; components are connected across edges with two facets, and numbered by first facet
   std::uint32_t n_components = 0;
-  std::vector<char> is_flipped;  ///< per facet: opposite to the first facet of its component
+  std::vector<char> is_flipped;  ///< per facet: true if it is oriented against the first facet of its component
   std::vector<Edge> conflicts;   ///< one edge for each component that has no consistent orientation
 };
 Orientation flood_orientation(const WorkingSurface& surface, const EdgeTable& edges);
 
-/// Applies a consistent orientation: closed components by signed volume and nesting depth (0 = a body, normals out; 1 = a cavity in it, normals into the
-/// cavity; 2 = a body in the cavity ...), open ones by the majority of their area. Depths are found by winding numbers.
-/// A body inside another whose normals both point outwards in the file becomes a cavity with a warning. `names`: of the patches.
-/// \pre no crowded edge, orientation without conflicts.
+/// Applies a consistent orientation. Closed components are oriented by signed volume and nesting depth. At depth 0 there is a body, whose normals point
+/// outwards. At depth 1 there is a cavity in it, whose normals point into the cavity; at depth 2 a body in the cavity, and so on. Open components keep the
+/// orientation of most of their area. Depths are found by winding numbers. If two nested bodies both have outward normals in the file, the inner one becomes a
+/// cavity, with a warning. `names` are those of the patches.
+/// \pre no crowded edge; orientation without conflicts
 void orient_outward(WorkingSurface& surface, const EdgeTable& edges, const Orientation& orientation, bool is_fluid_inside,
                     const std::vector<std::string>& names, StitchReport& report, const RunContext& context);
 

@@ -44,14 +44,14 @@ std::string as_utf8(std::string_view text) {
 
 /// Returns true for control characters, non-ASCII blanks and zero-width marks of more than one byte.
 bool is_blank_character(std::string_view character) {
-  if (character.size() == 2) return character[0] == '\xc2' && static_cast<unsigned char>(character[1]) <= 0xa0;  // U+0080 to U+00A0
-  if (character == "\xe3\x80\x80" || character == "\xef\xbb\xbf") return true;                                   // U+3000, U+FEFF
+  if (character.size() == 2) return character[0] == '\xc2' && static_cast<unsigned char>(character[1]) <= 0xa0;  // this is the range U+0080 to U+00A0
+  if (character == "\xe3\x80\x80" || character == "\xef\xbb\xbf") return true;                                   // these are U+3000 and U+FEFF
   if (character.substr(0, 2) != "\xe2\x80") return false;
   const auto last = static_cast<unsigned char>(character[2]);
-  return last <= 0x8f || (last >= 0xa8 && last <= 0xaf);  // U+2000 to U+200F, U+2028 to U+202F
+  return last <= 0x8f || (last >= 0xa8 && last <= 0xaf);  // these are U+2000 to U+200F and U+2028 to U+202F
 }
 
-/// Returns `name`, or name_2, name_3 ... if it is taken, and adds the result to `taken`.
+/// Returns `name`, or name_2, name_3 and so on if it is taken. Adds the result to `taken`.
 std::string unique_name(const std::string& name, std::set<std::string>& taken) {
   std::string candidate = name;
   for (int n = 2; !taken.insert(candidate).second; ++n) candidate = name + "_" + std::to_string(n);

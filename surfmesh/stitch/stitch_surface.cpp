@@ -1,5 +1,5 @@
-// The driver. Exact welding and cleaning come first, in the file's own numbers, so that equal or collinear points are found exactly. Then come the
-// combinatorial checks, orientation, scaling to metres, and the exact intersection test on the coordinates that will be meshed.
+// This is the driver. Exact welding and cleaning come first, with the numbers as stored in the file, so that equal or collinear points are found exactly. Then
+// come the combinatorial checks, orientation, scaling to metres, and the exact intersection test on the coordinates that will be meshed.
 #include "surfmesh/stitch/stitch_surface.h"
 
 #include "geom/base/error.h"
@@ -16,12 +16,12 @@ namespace {
 
 void report_welding(StitchReport& report) {
   if (report.n_unused_vertices > 0) report.messages.push_back("dropped " + count_of(report.n_unused_vertices, "unused vertex", "unused vertices"));
-  const bool is_loose = report.n_vertices_read == 3 * report.n_triangles_read;  // STL: every triangle has its own corners
+  const bool is_loose = report.n_vertices_read == 3 * report.n_triangles_read;  // as in STL files: every triangle has its own corners
   if (report.n_welded_exact > 0 && !is_loose)
     report.messages.push_back("welded " + count_of(report.n_welded_exact, "vertex", "vertices") + " to others with the same coordinates");
 }
 
-/// Logs the messages from the n_logged-th on. Called before each step that may throw, so that an error follows the repairs that led to it.
+/// Logs the messages from number n_logged on. It is called before each step that may throw, so that the log shows the repairs before the error.
 void log_messages(const StitchReport& report, std::size_t& n_logged, const RunContext& context) {
   for (; n_logged < report.messages.size(); ++n_logged) context.info("surface: " + report.messages[n_logged]);
 }
@@ -31,7 +31,7 @@ void scale_to_metres(WorkingSurface& surface) {
   surface.to_metres = 1.0;
 }
 
-/// Tests for crossings. Flat facets were flipped in file units before; the conversion to metres can round facets to new flat ones.
+/// Tests for crossings. Flat facets have already been flipped in file units, but the conversion to metres can round other facets to flat ones.
 void prove_free_of_crossings(WorkingSurface& surface, const StitchOptions& options, StitchReport& report, const RunContext& context) {
   const std::vector<std::uint32_t> flat = flip_flat_facets(surface, report);
   if (!options.check_intersections && flat.empty()) return;
@@ -39,7 +39,7 @@ void prove_free_of_crossings(WorkingSurface& surface, const StitchOptions& optio
   if (flat.empty()) {
     crossings = find_crossings(surface.points, surface.facets, context);
   } else {
-    // The exact test requires facets with an area: the others are skipped, then the pairs are numbered as in the surface.
+    // The exact test requires facets with an area. Other facets are left out, and the pairs found are then numbered as in the surface.
     std::vector<Facet> facets;
     std::vector<std::uint32_t> facets2surface;
     std::size_t next_flat = 0;

@@ -14,16 +14,18 @@
 namespace sterna::surfmesh {
 namespace {
 
-/// Automatic tolerance of numbers in double precision, relative to the body length: programs that mirror, move or print vertices lose some of
-/// the 16 digits (measured on the test surfaces: gaps up to 1e-13, next larger ones above 1e-7).
+/// Automatic tolerance for numbers in double precision, relative to the body length. Programs that mirror, move or print vertices lose some of the 16 digits.
+/// (On the test surfaces gaps were up to 1e-13, and the next larger ones above 1e-7.)
 constexpr double k_weld_double = 1e-9;
-/// ... and of files that store single precision, relative to the largest coordinate: two units in the last place, 2^-23 each.
+/// Automatic tolerance for files that store single precision, relative to the largest coordinate: two units in the last place, 2^-23 each.
 constexpr double k_weld_single = 2.5e-7;
-/// Largest tolerance a user may give, relative to the body length: beyond it no surface would remain, and the candidate pairs would exceed the memory.
+/// Largest tolerance that a user may give, relative to the body length. With a larger one no surface would remain, and the candidate pairs would exceed the
+/// memory.
 constexpr double k_max_weld = 0.02;
 constexpr std::uint32_t k_no_point = 0xffffffffu;
 
-/// Numbers points by value: open addressing, first come first numbered, hence dependent on the input order only.
+/// Numbers points by value, using open addressing. Points are numbered in the order of their first occurrence, so the numbers depend only on the order of the
+/// input.
 class PointIndex {
  public:
   explicit PointIndex(std::size_t n) : slots_(std::bit_ceil(2 * n + 2), k_no_point) {}
@@ -73,7 +75,7 @@ double automatic_tolerance(const WorkingSurface& surface) {
   return tolerance;
 }
 
-/// \throws Error(bad_argument) if the given tolerance is too large for the body.
+/// \throws Error(bad_argument) if the given tolerance is too large for the body
 void check_tolerance(const WorkingSurface& surface, double tolerance) {
   const double length = surface.to_metres * surface.box().longest_side();
   if (tolerance <= k_max_weld * length) return;
@@ -86,11 +88,11 @@ void check_tolerance(const WorkingSurface& surface, double tolerance) {
   throw Error(std::move(info));
 }
 
-/// Returns for every point the lowest one of its chain of candidates within the tolerance (itself if alone).
+/// Returns for every point the lowest point of its chain of candidates within the tolerance (the point itself if it has no candidates nearby).
 std::vector<std::uint32_t> near_representatives(const WorkingSurface& surface, const std::vector<std::uint32_t>& candidates, double tolerance,
                                                 const RunContext& context) {
   std::vector<Box> boxes(candidates.size());
-  const double reach = 0.51 * tolerance;  // a little more than half: the distance itself decides
+  const double reach = 0.51 * tolerance;  // a little more than half; the exact distance is tested afterwards
   for (std::size_t i = 0; i < candidates.size(); ++i) {
     const Vec3& p = surface.points[candidates[i]];
     boxes[i] = {p - Vec3{reach, reach, reach}, p + Vec3{reach, reach, reach}};
@@ -103,7 +105,7 @@ std::vector<std::uint32_t> near_representatives(const WorkingSurface& surface, c
   return std::move(welded).roots();
 }
 
-/// Returns the vertices in use, or only those of boundary edges, ascending.
+/// Returns the used vertices in ascending order; if `defects` are given, only those on boundary edges.
 std::vector<std::uint32_t> weld_candidates(const WorkingSurface& surface, const Defects* defects) {
   std::vector<char> is_candidate(surface.points.size(), 0);
   if (defects) {

@@ -1,9 +1,10 @@
-// Problem: an alpha wrap is closed and free of self-intersection, but lies `offset` outside of its input, cuts off its sharp edges, and has poor triangles.
+// An alpha wrap is closed and free of self-intersection, but it lies `offset` outside of its input, cuts off sharp edges, and has poor triangles. The following
+// steps correct this:
 // 1. bring_back: every vertex moves to the nearest point of the input.
-// 2. snap_to_lines: the nearest vertices move onto corners and sharp edges.
-// 3. split_crossed: edges that still cross a sharp edge get a vertex there. 4. refine: edges that are too far from the input get one on it.
-// 5. improve: rounds of collapses, flips and smoothing, all within the tolerance of the input and of the closures of its openings.
-// Each step keeps the surface free of self-intersection, by the exact test: single changes by strip_mesh.h, moves of all vertices at once by move_clear.h.
+// 2. snap_to_lines: the vertices nearest to corners and sharp edges move onto them.
+// 3. split_crossed: edges that still cross a sharp edge get a vertex on it. 4. refine: edges that are too far from the input get a vertex on the input.
+// 5. improve: rounds of collapses, flips and smoothing, all within the tolerance of the input and of the closures of its openings. Each step keeps the surface
+// free of self-intersection (exact test). Single changes use strip_mesh.h, simultaneous moves of all vertices use move_clear.h.
 #include "surfmesh/wrap/fit_wrap.h"
 
 #include <algorithm>
@@ -19,27 +20,30 @@
 namespace sterna::surfmesh {
 namespace {
 
-/// Relative to the local edge length: a vertex this near to a corner, to a line, moves there.
+/// Relative to the local edge length: a vertex nearer than the first distance to a corner, or nearer than the second to a line, moves there.
 constexpr double k_corner_reach = 0.6, k_line_reach = 0.4;
-/// Relative to an edge's length: if a line passes the edge's middle within the first distance, the edge may cut off the corner at the line. A corner of 90
-/// degrees is half a length away, one of 60 degrees 0.87. If both ends are on the same side, only lines within the second distance count.
+/// Relative to an edge's length: if a line is within the first distance of the edge's middle, the edge may cut off the sharp edge at this line. (A sharp edge
+/// of 90 degrees is half a length away, one of 60 degrees 0.87.) If both ends of the edge are on the same side of the line, only lines within the second
+/// distance are used.
 constexpr double k_crossing_reach = 0.9, k_side_reach = 0.35;
-/// rad; largest turn of a triangle in a step onto a line, and smallest angle it must leave: 80 and 2.5 degrees.
+/// Rad: largest turn of a triangle in a step onto a line (80 degrees), and smallest angle that the triangle must keep (2.5 degrees).
 constexpr double k_line_turn = 1.4, k_line_angle = 0.044;
 constexpr int k_refine_rounds = 4;
-/// Relative to the wrap's edge: lower limit of refinement.
+/// Lower limit of edge lengths in refinement, relative to the edge length of the wrap.
 constexpr double k_least_edge = 1.0 / 6.0;
 constexpr int k_improve_rounds = 3;
-/// Relative to the wrap's edge: shorter edges are collapsed if the tolerance allows it, and no longer ones may result.
+/// Relative to the edge length of the wrap: edges shorter than the first value are collapsed if the tolerance allows it, and no edge longer than the second
+/// value may result.
 constexpr double k_short_edge = 0.5, k_long_edge = 1.7;
-/// rad; collapses leave 17 degrees, smoothing 15, if the angles were that large before. Triangles below 20 degrees get a step of their own.
+/// Rad: triangles keep at least 17 degrees in collapses and 15 degrees in smoothing, if their angles were that large before. Triangles below k_poor (20
+/// degrees) get a separate step.
 constexpr double k_collapse_angle = 0.3, k_smooth_angle = 0.26, k_poor = 0.35;
-/// rad, 6 degrees: removing a sliver triangle takes precedence over the quality of adjacent ones.
+/// Rad, 6 degrees: below this angle, the removal of a sliver triangle takes precedence over the quality of adjacent triangles.
 constexpr double k_needle = 0.105;
 constexpr double k_gain = 1e-3;
-/// Relative to the wrap's edge: vertices this near to a vertex on a line are merged into it.
+/// Relative to the edge length of the wrap: a vertex nearer than this to a vertex on a line is merged into it.
 constexpr double k_merged_edge = 0.25;
-/// rad; in smoothing no triangle turns by more than 29 degrees.
+/// Rad: in smoothing no triangle turns by more than 29 degrees.
 constexpr double k_smooth_turn = 0.5;
 
 using Facets = std::vector<std::array<std::uint32_t, 3>>;
@@ -78,7 +82,7 @@ std::vector<double> mean_edges(const std::vector<Vec3>& points, const Facets& tr
   return sum;
 }
 
-/// Returns each edge once, from the lower to the higher vertex, in order.
+/// Returns each edge once, from its lower to its higher vertex, sorted.
 std::vector<Ends> edges_of(const Facets& triangles, const RunContext& context) {
   std::vector<Ends> edges;
   edges.reserve(triangles.size() * 3 / 2);
@@ -148,7 +152,7 @@ class WrapFitter {
           tie[v] = LineTie::line;
         },
         512);
-    // Only the nearest of the vertices near a corner moves there.
+    // Only the vertex nearest to a corner moves there.
     std::map<std::uint32_t, std::uint32_t> best;
     for (std::uint32_t v = 0; v < n; ++v) {
       if (!corner[v].triangle.is_valid()) continue;
@@ -174,7 +178,7 @@ class WrapFitter {
     return StripMesh(now_.points, std::move(triangles), {.max_bend = feature_angle_}, near);
   }
 
-  /// Takes the remaining mesh; returns the new number of each of its vertices.
+  /// Takes over the remaining mesh. Returns the new number of each of its vertices.
   std::vector<std::uint32_t> take(const StripMesh& mesh) {
     FittedWrap next;
     constexpr std::uint32_t k_none = 0xffffffffu;
@@ -199,7 +203,7 @@ class WrapFitter {
     return number;
   }
 
-  /// Result of a planned split, computed in parallel, executed in order.
+  /// Result of a planned split. Splits are computed in parallel and executed in order.
   struct NewPoint {
     bool is_wanted = false;
     bool is_on_line = false;
@@ -211,12 +215,13 @@ class WrapFitter {
     std::vector<NewPoint> points(edges.size());
     parallel_for(
         context_, edges.size(), [&](std::size_t e) { points[e] = choose(edges[e]); }, 512);
-    std::vector<std::pair<double, std::size_t>> order;  // longest first
+    std::vector<std::pair<double, std::size_t>> order;  // edges, longest first
     for (std::size_t e = 0; e < edges.size(); ++e)
       if (points[e].is_wanted) order.push_back({-distance(now_.points[edges[e][0]], now_.points[edges[e][1]]), e});
     if (order.empty()) return 0;
     std::sort(order.begin(), order.end());
-    // All edges are split in the middle first, then all new vertices move at once: no triangle has to turn while only some of its vertices are in place.
+    // All edges are first split in the middle. Then all new vertices move at once, so that no triangle has to turn while only some of its vertices are in
+    // place.
     StripMesh mesh = strip_mesh(surface_.facets());
     std::vector<std::pair<std::uint32_t, std::size_t>> made;
     for (const auto& [key, e] : order)
@@ -231,7 +236,7 @@ class WrapFitter {
     return made.size();
   }
 
-  /// Returns the point of a line that the edge crosses, or at which it cuts off the corner.
+  /// Returns the point of a line that the edge crosses, or at which the edge cuts off the sharp edge.
   NearestHit crossed_line(const Vec3& a, const Vec3& b) const {
     const double length = distance(a, b);
     const Vec3 middle = 0.5 * (a + b);
@@ -279,7 +284,7 @@ class WrapFitter {
     }
   }
 
-  /// Moves vertices that a split left between the wrap and the input, onto a line if one is near.
+  /// Moves vertices that a split left between the wrap and the input. They move onto a line if one is near.
   void bring_far_back() {
     const std::vector<double> length = mean_edges(now_.points, now_.triangles);
     std::vector<Vec3> targets = now_.points;
@@ -301,7 +306,7 @@ class WrapFitter {
     now_.points = std::move(moved.points);
   }
 
-  /// Returns the input and the triangles of the wrap beyond the tolerance, which close openings and grooves.
+  /// Returns the input together with the triangles of the wrap beyond the tolerance, which close openings and grooves.
   TriMesh with_closures() const {
     TriMesh all = surface_.input().mesh;
     all.triangle_patch.clear();
@@ -337,7 +342,7 @@ class WrapFitter {
     return mesh.collapse(from, to, {.least_angle = least_angle, .longest = k_long_edge * sizes_.edge, .tolerance = sizes_.tolerance, .merge = 0.0});
   }
 
-  /// Collapses an edge along a line: its vertices may be merged whatever is beside them, if nothing leaves the input, inverts or crosses.
+  /// Collapses an edge along a line. Adjacent triangles do not restrict this merge, as long as nothing leaves the input, inverts or crosses.
   bool try_along_line(StripMesh& mesh, std::uint32_t from, std::uint32_t to) const {
     if (now_.tie[from] != LineTie::line || now_.tie[to] == LineTie::none) return false;
     const Vec3 &a = mesh.points[from], &b = mesh.points[to];
@@ -359,15 +364,15 @@ class WrapFitter {
     for (const auto& [length, e] : order) {
       if (++n % 1024 == 0) context_.check_stop();
       if (!mesh.triangle_at(e[0], e[1])) continue;
-      // The end with the weaker tie is removed.
+      // The end that is less tied to a line or corner is removed.
       const bool is_second_freer = now_.tie[e[1]] < now_.tie[e[0]];
       const std::uint32_t from = e[is_second_freer ? 1 : 0], to = e[is_second_freer ? 0 : 1];
       if (!try_collapse(mesh, from, to, k_collapse_angle)) try_collapse(mesh, to, from, k_collapse_angle);
     }
   }
 
-  /// Merges vertices onto lines. The wrap rounds a sharp edge with two rows of vertices, one of which is on it: the other is merged into it, whatever the
-  /// angles of the strip between them.
+  /// Merges vertices onto lines. The wrap rounds a sharp edge with two rows of vertices, one of which is on the line. The vertices of the other row are merged
+  /// into it, whatever the angles of the strip between them.
   void merge_onto_lines(StripMesh& mesh) const {
     std::vector<std::pair<double, Ends>> order;
     for (const Ends& e : edges_of(now_.triangles, context_)) {
@@ -375,7 +380,7 @@ class WrapFitter {
       const double length = distance(a, b);
       const LineTie freer = std::min(now_.tie[e[0]], now_.tie[e[1]]), other = std::max(now_.tie[e[0]], now_.tie[e[1]]);
       if (length >= k_merged_edge * sizes_.edge || other == LineTie::none || freer == LineTie::corner) continue;
-      // Both vertices must be on one line, not on two lines near each other: the edge lies on the line.
+      // Both vertices must be on one line, not on two lines near each other. Therefore the edge between them must lie on the line.
       if (freer == LineTie::line && !surface_.nearest_line(0.5 * (a + b), 0.05 * length).triangle.is_valid()) continue;
       order.push_back({length, now_.tie[e[0]] == freer ? e : Ends{e[1], e[0]}});
     }
@@ -386,7 +391,7 @@ class WrapFitter {
                       {.least_angle = 0.0, .longest = k_long_edge * sizes_.edge, .tolerance = sizes_.tolerance, .merge = k_merged_edge * sizes_.edge});
   }
 
-  /// Flips edges if that raises the smaller of the two triangles' smallest angles.
+  /// Flips edges if that increases the smallest angle of the two triangles.
   void flip_all(StripMesh& mesh) const {
     std::vector<std::pair<double, std::uint32_t>> order;
     for (std::uint32_t t = 0; t < mesh.triangles.size(); ++t)
@@ -412,7 +417,7 @@ class WrapFitter {
     return std::min(mesh.min_angle({e[0], d, c}), mesh.min_angle({d, e[1], c})) > std::min(mesh.min_angle(*left), mesh.min_angle(*right)) + k_gain;
   }
 
-  /// Flips the edge of a triangle that is nearly as flat as its longest edge. Such a triangle has no normal of its own, so that of its neighbour is used.
+  /// Flips the longest edge of a nearly flat triangle. Such a triangle has no normal of its own, so the normal of its neighbour is used.
   bool try_flip_needle(StripMesh& mesh, std::uint32_t t, std::uint32_t a, std::uint32_t b) const {
     const auto left = mesh.triangle_at(a, b), right = mesh.triangle_at(b, a);
     if (!left || !right) return false;
@@ -454,11 +459,11 @@ class WrapFitter {
     }
   }
 
-  /// Moves vertices to the centre of their neighbours; those of kept edges to the middle of the two neighbours along these edges.
+  /// Moves vertices to the centre of their neighbours. Vertices on kept edges move to the middle of the two neighbours along these edges.
   void smooth(const TriangleTree& near) {
     const std::size_t n = now_.points.size();
     const Facets& triangles = now_.triangles;
-    // Neighbours with the two triangles of each edge, to see which edges are kept.
+    // A neighbour with the two triangles at the edge to it, which show if the edge is kept.
     struct Side {
       std::uint32_t from, to, triangle;
     };
@@ -513,7 +518,7 @@ class WrapFitter {
     smooth(near);
   }
 
-  /// Improves the final mesh without moving vertices: they are on the input now.
+  /// Improves the final mesh without moving vertices, because they already lie on the input.
   void finish(const TriangleTree& near) {
     StripMesh mesh = strip_mesh(near);
     merge_onto_lines(mesh);

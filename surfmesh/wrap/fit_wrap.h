@@ -11,7 +11,8 @@
 namespace sterna::surfmesh {
 
 struct WrapSizes {
-  double edge = 0.0, gap = 0.0, tolerance = 0.0, offset = 0.0;  ///< m
+  /// m; edge length, largest closed opening, largest distance from the input, and offset of the wrap.
+  double edge = 0.0, gap = 0.0, tolerance = 0.0, offset = 0.0;
   bool is_fluid_inside = false;
 };
 
@@ -21,11 +22,11 @@ enum class LineTie : char { none, line, corner };
 struct FittedWrap {
   std::vector<Vec3> points;
   std::vector<std::array<std::uint32_t, 3>> triangles;
-  std::vector<std::uint32_t> patch;  ///< per triangle, of the input's mesh
-  std::vector<LineTie> tie;          ///< per vertex
+  std::vector<std::uint32_t> patch;  ///< for each triangle: patch of the input's mesh
+  std::vector<LineTie> tie;          ///< tie of each vertex
 };
 
-/// The input for distance queries: its facets, its lines and its corners.
+/// The input for distance queries: facets, lines and corners.
 class InputSurface {
  public:
   InputSurface(const WrapInput& input, const RunContext& context);
@@ -45,7 +46,7 @@ class InputSurface {
   TriangleTree facets_, lines_, corners_;
 };
 
-/// \pre `wrap` is closed, manifold and without self-intersection. \post so is the result
+/// \pre `wrap` is closed, manifold and without self-intersection. \post the result is closed, manifold and without self-intersection
 FittedWrap fit_wrap(const WrapSurface& wrap, const InputSurface& surface, const WrapSizes& sizes, double feature_angle, const RunContext& context);
 
 /// Returns for each triangle the patch of the nearest facet. Patches become connected regions; small regions are merged into their neighbours.

@@ -10,7 +10,7 @@
 namespace sterna::surfmesh {
 namespace {
 
-/// Halvings of the distance before a vertex stays at its start.
+/// Number of halvings of the distance before a vertex stays at its start.
 constexpr int k_halvings = 4;
 
 using Corners = std::array<Vec3, 3>;
@@ -23,7 +23,7 @@ ClearMove move_clear(std::vector<Vec3> points, const std::vector<std::array<std:
                      const ClearMoveLimits& limits, const RunContext& context) {
   const std::vector<Vec3> home = points;
   const std::size_t n = points.size();
-  std::vector<int> halvings(n, 0);  // k_halvings: at its start
+  std::vector<int> halvings(n, 0);  // halvings of each vertex; k_halvings: the vertex is at its start
   const auto put = [&](std::size_t v) {
     points[v] = halvings[v] == 0 ? targets[v] : halvings[v] >= k_halvings ? home[v] : home[v] + std::ldexp(1.0, -halvings[v]) * (targets[v] - home[v]);
   };
@@ -77,7 +77,7 @@ ClearMove move_clear(std::vector<Vec3> points, const std::vector<std::array<std:
       has_changed |= halvings[v] < k_halvings;
       take_back(v);
     }
-    if (!has_changed) break;  // these pairs crossed before the move
+    if (!has_changed) break;  // the remaining pairs crossed before the move
   }
   ClearMove result;
   result.has_arrived.resize(n);

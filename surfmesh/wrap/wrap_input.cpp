@@ -20,9 +20,10 @@ namespace {
 constexpr double k_rim_off_plane = 1e-3;
 /// Fraction of the borders' length that must lie in the plane. A torn half model has many borders elsewhere.
 constexpr double k_rim_share = 0.2;
-/// Largest fraction of the boundary's box that facets in the plane may cover: with more, the plane is a side of the body with a hole in it.
+/// Largest fraction of the boundary's box that facets in the plane may cover. If they cover more, the plane is a side of the body, and the boundary is a hole
+/// in it.
 constexpr double k_closed_share = 0.05;
-/// rad, 30 degrees: two lines that meet at a vertex with a larger bend form a corner.
+/// Rad, 30 degrees: two lines that meet at a vertex with a larger bend form a corner there.
 constexpr double k_corner_bend = 0.52;
 
 double border_length(const TriMesh& mesh, TriangleId t, std::size_t k) {
@@ -37,7 +38,7 @@ std::vector<Facet> facets_of(const TriMesh& mesh) {
   return facets;
 }
 
-/// Orients the facets of each part that is connected over edges with two facets consistently.
+/// Orients the facets of each part consistently. Parts are connected across edges with two facets.
 void make_one_sense(WorkingSurface& surface, WrapInput& input) {
   const EdgeTable edges(surface.facets, surface.points.size());
   const Orientation orientation = flood_orientation(surface, edges);
@@ -47,7 +48,7 @@ void make_one_sense(WorkingSurface& surface, WrapInput& input) {
   input.n_parts = orientation.n_components;
 }
 
-/// The longest open boundary within one plane at the box's end.
+/// The longest open boundary within one plane at the end of the box.
 struct Rim {
   int axis = -1;
   double at = 0.0;
@@ -79,12 +80,12 @@ Rim find_rim(const WrapInput& input, double gap) {
           extent.add(a);
           extent.add(b);
         }
-        // Facets in the plane: the surface is closed there.
+        // Facets that lie in the plane close the surface there.
         if (std::abs(c[0][axis] - end) <= near && std::abs(c[1][axis] - end) <= near && std::abs(c[2][axis] - end) <= near)
           facing += triangle_area(c[0], c[1], c[2]);
       }
       if (length < k_rim_share * all || extent.empty() || extent.longest_side() <= gap || length <= best.length) continue;
-      // An open boundary is a closed loop: it covers its extent in both directions.
+      // An open boundary is a closed loop, so it covers its extent in both directions.
       const Vec3 size = extent.max - extent.min;
       const double enclosed = size[(axis + 1) % 3] * size[(axis + 2) % 3];
       if (length < 1.5 * extent.longest_side() || facing > k_closed_share * enclosed) continue;
@@ -106,7 +107,7 @@ void find_lines(WrapInput& input, double angle) {
   input.lines.clear();
   input.is_border_of_patches.clear();
   input.corners.clear();
-  std::map<std::uint32_t, std::vector<std::uint32_t>> ends;  // vertex -> the lines' other ends
+  std::map<std::uint32_t, std::vector<std::uint32_t>> ends;  // for each vertex: the other ends of the lines at it
   const double least = std::cos(angle);
   for (const Edge& edge : edges.edges()) {
     const auto sides = edges.at(edge);
@@ -114,8 +115,8 @@ void find_lines(WrapInput& input, double angle) {
       input.is_border[sides[0] / 3][sides[0] % 3] = 1;
       continue;
     }
-    // Each facet's direction away from the edge, so that the bend does not depend on the facets' senses. Edges with several facets are classified by their
-    // sharpest pair.
+    // Direction from the edge into each facet. With these directions the bend does not depend on the orientation of the facets. An edge with several facets is
+    // classified by the sharpest pair.
     bool is_sharp = false, is_patch = false;
     const Vec3 a = mesh.points[VertexId(edge.low)], b = mesh.points[VertexId(edge.high)];
     const auto away = [&](std::uint32_t h) {
@@ -153,7 +154,7 @@ WrapInput read_wrap_input(const std::vector<SurfaceSoup>& soups, const WrapOptio
   WorkingSurface surface = weld_exact(soups, stitch, cleaned);
   for (const SurfaceSoup& soup : soups) report.n_facets_read += static_cast<std::int64_t>(soup.triangles.size());
   drop_degenerate_facets(surface, cleaned);
-  // Duplicate facets would count several times in winding numbers.
+  // Duplicate facets would count several times in winding numbers, so they are left out.
   {
     std::vector<std::pair<Facet, std::uint32_t>> sorted;
     for (std::uint32_t f = 0; f < surface.n_facets(); ++f) {
@@ -190,7 +191,7 @@ void mirror_half(WrapInput& input, double gap, WrapReport& report, const RunCont
   const auto axis = static_cast<std::size_t>(rim.axis);
   TriMesh& mesh = input.mesh;
   const double near = k_rim_off_plane * input.length;
-  // Planes within half the tolerance of zero are set to zero.
+  // Planes at a distance of less than half the tolerance from zero are set to zero.
   const double at = std::abs(rim.at) < 0.5 * near ? 0.0 : rim.at;
   std::vector<char> is_rim(mesh.n_vertices(), 0);
   for (const TriangleId t : mesh.triangles.ids())
@@ -263,7 +264,7 @@ void turn_parts(WrapInput& input, const TriMesh& around, double reach, const Run
     const auto c = corners(input.mesh, TriangleId(std::uint64_t{f}));
     volume[input.part[f]] += tet_volume(centre[input.part[f]], c[0], c[1], c[2]);
   }
-  /// Below this fraction of its area the votes of a part's two sides cancel.
+  /// If the result of a vote is below this fraction of the part's area, the votes of its two sides cancel each other.
   constexpr double k_clear_vote = 0.3;
   for (std::size_t f = 0; f < n; ++f) {
     const std::uint32_t p = input.part[f];

@@ -12,34 +12,34 @@
 namespace sterna::surfmesh {
 
 struct WrapInput {
-  TriMesh mesh;                     ///< the facets of one edge-connected part are consistently oriented; no other requirement
-  std::vector<std::uint32_t> part;  ///< per facet
+  TriMesh mesh;                     ///< the facets of each edge-connected part are oriented consistently; there are no other requirements
+  std::vector<std::uint32_t> part;  ///< part of each facet
   std::uint32_t n_parts = 0;
-  std::vector<std::array<char, 3>> is_border;  ///< per facet and side: no other facet there
+  std::vector<std::array<char, 3>> is_border;  ///< for each facet and side: true if no other facet is there
   std::vector<std::array<Vec3, 2>> lines;      ///< sharp edges and patch borders
-  std::vector<char> is_border_of_patches;      ///< per line: not sharp
-  std::vector<Vec3> corners;                   ///< where lines end, meet or bend
+  std::vector<char> is_border_of_patches;      ///< for each line: true if it is a patch border that is not sharp
+  std::vector<Vec3> corners;                   ///< points where lines end, meet or bend
   double length = 0.0;                         ///< m, longest side of the box
   double area = 0.0;                           ///< m^2
-  std::string half_axis;                       ///< the mesh holds both halves
+  std::string half_axis;                       ///< axis of a half model; the mesh then contains both halves
   double half_at = 0.0;
-  bool is_half_above = true;  ///< side of the given half
+  bool is_half_above = true;  ///< the given half is on the side of larger coordinates
   double half_moved = 0.0;
 };
 
-/// \throws Error as wrap_surface
+/// \throws Error like wrap_surface
 WrapInput read_wrap_input(const std::vector<SurfaceSoup>& soups, const WrapOptions& options, WrapReport& report, const RunContext& context);
 
-/// Recognises a half model and mirrors it. `gap` (m): models with openings up to this size are not halves.
+/// Recognises a half model and mirrors it. \p gap m: a surface whose openings are no larger than this is no half model
 void mirror_half(WrapInput& input, double gap, WrapReport& report, const RunContext& context);
 
-/// Fills borders, lines and corners from the mesh. `angle`, rad.
+/// Finds borders, lines and corners of the mesh. \p angle rad
 void find_lines(WrapInput& input, double angle);
 
-/// Orients the parts so that their normals agree with the surface around them; parts for which that is not decisive are oriented by their volume.
+/// Orients the parts so that their normals agree with the surface around them. Parts for which this comparison is not conclusive are oriented by their volume.
 void turn_parts(WrapInput& input, const TriMesh& around, double reach, const RunContext& context);
 
-/// Formats a number: 1e-6 m -> "1e-06"
+/// Formats a number for messages, such as 1e-6 as "1e-06".
 std::string wrap_number(double value);
 
 }  // namespace sterna::surfmesh

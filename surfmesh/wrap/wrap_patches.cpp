@@ -10,7 +10,7 @@ namespace sterna::surfmesh {
 namespace {
 
 constexpr int k_majority_rounds = 6;
-/// Relative to the edge squared: a region with less area is an island, unless its patch has no other region.
+/// Relative to the edge squared: a region with a smaller area is an island, unless it is the only region of its patch.
 constexpr double k_island_area = 8.0;
 
 }  // namespace
@@ -29,27 +29,27 @@ std::vector<std::uint32_t> patches_of(const std::vector<Vec3>& points, const std
         const auto c = corners(mesh, TriangleId(std::uint64_t{t}));
         const Vec3 a = area_vector(c[0], c[1], c[2]);
         area[t] = norm(a);
-        // Queried from outside, so that the other side of a thin wing is not nearer.
+        // The query starts outside of the surface, so that the other side of a thin wing is not nearer.
         const Vec3 middle = (c[0] + c[1] + c[2]) / 3.0 + 0.5 * sizes.tolerance * normalized(a);
         patch[t] = input_patch[surface.nearest(middle).triangle].value();
       },
       256);
   const Topology topology(mesh, context);
   const auto neighbour = [&](std::size_t t, std::size_t k) { return triangle_of(topology.twin(HalfedgeId(std::uint64_t{3 * t + k}))).index(); };
-  // A triangle between two of another patch joins that patch.
+  // A triangle beside two triangles of another patch joins that patch.
   for (int round = 0; round < k_majority_rounds; ++round) {
     std::vector<std::uint32_t> next = patch;
     parallel_for(context, n, [&](std::size_t t) {
       const std::uint32_t a = patch[neighbour(t, 0)], b = patch[neighbour(t, 1)], c = patch[neighbour(t, 2)];
       const std::uint32_t most = a == b || a == c ? a : b == c ? b : patch[t];
-      // If two triangles would swap patches, only one changes: the change is made only towards the lower number.
+      // If two triangles would swap patches, only one of them changes. Therefore only changes towards the lower number are made.
       if (most != patch[t] && (a == patch[t] || b == patch[t] || c == patch[t]) && most > patch[t]) return;
       next[t] = most;
     });
     if (next == patch) break;
     patch.swap(next);
   }
-  // Islands are assigned to the neighbour with the longest border, the smallest first.
+  // Islands are assigned to the neighbour with the longest common border, smallest island first.
   for (int round = 0; round < k_majority_rounds; ++round) {
     std::vector<std::uint32_t> region(n, 0xffffffffu), stack;
     std::vector<double> region_area;
@@ -73,12 +73,12 @@ std::vector<std::uint32_t> patches_of(const std::vector<Vec3>& points, const std
         }
       }
     }
-    std::map<std::uint32_t, std::uint32_t> largest;  // patch -> region
+    std::map<std::uint32_t, std::uint32_t> largest;  // largest region of each patch
     for (std::uint32_t r = 0; r < region_area.size(); ++r) {
       const auto [known, is_new] = largest.try_emplace(region_patch[r], r);
       if (!is_new && region_area[r] > region_area[known->second]) known->second = r;
     }
-    std::map<std::uint32_t, std::map<std::uint32_t, double>> borders;  // island -> patch -> length
+    std::map<std::uint32_t, std::map<std::uint32_t, double>> borders;  // length of the border of each island with each patch
     for (std::size_t t = 0; t < n; ++t) {
       const std::uint32_t r = region[t];
       if (region_area[r] > k_island_area * sizes.edge * sizes.edge || largest[region_patch[r]] == r) continue;

@@ -17,26 +17,26 @@ namespace {
 constexpr double k_fair_angle = 0.2618;  ///< rad, 15 degrees
 /// Winding number of the input above which a location is inside: above the value of one half on its surface.
 constexpr double k_inside = 0.55;
-/// Relative to the edge: distance in front of the wrap at which leaks are tested.
+/// Relative to the edge: distance in front of the wrap at which leaks are detected.
 constexpr double k_leak_probe = 0.25;
-/// Relative to the edge squared: leaks with less area are folds of the surface.
+/// Relative to the edge squared: leaks with a smaller area are folds of the surface.
 constexpr double k_leak_area = 20.0;
 
 struct TriangleFinding {
-  double distance = 0.0;  ///< m, of the farthest sample
+  double distance = 0.0;  ///< m, distance of the farthest sample
   Vec3 sample;
-  bool is_over_border = false;  ///< the nearest location there is on a border of the input
+  bool is_over_border = false;  ///< the nearest location to that sample is on a border of the input
   bool is_leak = false;
 };
 
 struct InputFinding {
-  double distance = 0.0;  ///< m, of the farthest sample that is not inside
+  double distance = 0.0;  ///< m, distance of the farthest sample that is not inside
   bool is_inside = false;
 };
 
 std::string places(std::int64_t n) { return n == 1 ? "1 place" : std::to_string(n) + " places"; }
 
-/// Returns the triangles with the flag in edge-connected groups, ordered by first triangle.
+/// Returns the flagged triangles in edge-connected groups, ordered by their first triangles.
 std::vector<std::vector<std::uint32_t>> groups_of(const std::vector<char>& flag, const Topology& topology) {
   std::vector<std::vector<std::uint32_t>> groups;
   std::vector<char> is_done(flag.size(), 0);
@@ -107,7 +107,7 @@ void measure_wrap(const FittedWrap& wrap, const InputSurface& surface, const Wra
       },
       128);
 
-  // Closures: triangles beyond the tolerance, in groups; openings if the nearest location is on a border of the input.
+  // Closures are groups of triangles beyond the tolerance. A closure is an opening if the nearest location is on a border of the input.
   std::vector<char> is_far(n, 0), is_closure(n, 0), is_leak(n, 0);
   for (std::size_t t = 0; t < n; ++t) {
     is_far[t] = found[t].distance > sizes.tolerance;
@@ -127,7 +127,7 @@ void measure_wrap(const FittedWrap& wrap, const InputSurface& surface, const Wra
     closure.is_opening = 2 * n_over_border >= group.size();
     closure.position = box.center();
     closure.size = box.longest_side();
-    // A groove of at least this depth was closed; shallower ones are a rough fit and count as such.
+    // Only grooves of at least this depth count as closed. In shallower ones the fit is rough, and the triangles count as beyond the tolerance.
     if (!closure.is_opening && closure.distance < 0.5 * sizes.edge) continue;
     for (const std::uint32_t t : group) is_closure[t] = 1;
     ++report.n_closures;
@@ -165,7 +165,7 @@ void measure_wrap(const FittedWrap& wrap, const InputSurface& surface, const Wra
   draw_closures(mesh, surface.input(), is_closure, is_leak, report.drawing);
   std::stable_sort(report.leaks.begin(), report.leaks.end(), [](const WrapLeak& a, const WrapLeak& b) { return a.area > b.area; });
 
-  // Distances from the input to the wrap.
+  // The distances from the input to the wrap.
   const TriMesh& input = surface.input().mesh;
   std::vector<InputFinding> inputs(input.n_triangles());
   parallel_for(

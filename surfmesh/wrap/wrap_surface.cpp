@@ -1,5 +1,6 @@
-// The driver: the soup in metres (read_wrap_input), a half model mirrored, sizes and the estimate, openings between edge and gap closed by a coarser wrap
-// (close_openings), the wrap, its fit to the input (fit_wrap), measured changes (measure_wrap), patches, the half cut out, the proof.
+// This is the driver. Steps: read the soup in metres (read_wrap_input) and mirror a half model; choose sizes and estimate the work; close openings between edge
+// and gap by a coarser wrap (close_openings); wrap; fit the wrap to the input (fit_wrap); measure changes (measure_wrap); assign patches; cut out the half;
+// check the result.
 #include "surfmesh/wrap/wrap_surface.h"
 
 #include <algorithm>
@@ -20,36 +21,38 @@
 namespace sterna::surfmesh {
 namespace {
 
-/// Triangles of an alpha wrap on a plane, per area over alpha^2: measured.
+/// Measured number of triangles of an alpha wrap on a plane, per area over alpha^2.
 constexpr double k_triangles_per_area = 2.6;
 constexpr double k_automatic_triangles = 60'000.0;
-constexpr double k_finest_edge = 1.0 / 400.0, k_coarsest_edge = 1.0 / 50.0;  ///< relative to the body length
-constexpr double k_automatic_gap = 0.02;                                     ///< relative to the body length
-/// A gap beyond this multiple of the edge needs a separate wrap: a ball of the edge's radius passes through wider openings.
+constexpr double k_finest_edge = 1.0 / 400.0, k_coarsest_edge = 1.0 / 50.0;  ///< relative to the body length: limits of the automatic edge length
+constexpr double k_automatic_gap = 0.02;                                     ///< relative to the body length: automatic gap
+/// A gap of more than this multiple of the edge needs a separate wrap, because a ball of the edge's radius passes through wider openings.
 constexpr double k_gap_of_edge = 2.0;
-/// Smallest winding number of the input on closures of its openings: about a half there, less where there are many openings, zero in front of grooves.
+/// Smallest winding number of the input on closures of its openings. It is about a half on a closure, less where there are many openings, and zero in front of
+/// grooves.
 constexpr double k_closing = 0.15;
-/// Relative to the edge: distance between samples of potential closures; and largest number of samples along a side.
+/// Distance between samples of potential closures, relative to the edge, and largest number of samples along a side.
 constexpr double k_sample_step = 0.7;
 constexpr int k_most_samples = 12;
-/// Winding number above which a location is inside the input; fraction of the wrap in front of such locations from which the wrap leaks and not just folds;
-/// and the limit (relative to the body length) from which on an automatic gap is not doubled any more.
+/// Winding number above which a location is inside the input; fraction of the wrap in front of such locations above which the wrap leaks; and limit, relative
+/// to the body length, above which an automatic gap is no longer doubled. A smaller fraction of the wrap is caused by folds.
 constexpr double k_inside_input = 0.55, k_leaking_share = 0.05, k_widest_gap = 0.08;
-/// Relative to its ball: the offset of a coarser wrap. Relative to the edge: the ball of a preliminary wrap that tests if closures suffice before the wrap
-/// with the edge's own ball.
+/// Offset of a coarser wrap, relative to the radius of its ball. Radius of the ball, relative to the edge, of a preliminary wrap. The preliminary wrap tests if
+/// closures suffice before the wrap with the final ball is made.
 constexpr double k_coarse_offset = 0.05, k_glance_ball = 4.0;
-/// Relative to the area of the input: a wrap with a larger area covers both sides of baffles, and its edge is chosen by its own area.
+/// Relative to the area of the input: a wrap with a larger area covers both sides of baffles. The edge length is then chosen by the area of the wrap.
 constexpr double k_both_sides = 1.25;
-/// s, time of one point of the alpha wrap with all later steps; for the estimate in messages.
+/// s, time for one point of the alpha wrap including all later steps. It is used for the estimate in messages.
 constexpr double k_seconds_per_triangle = 1.5e-4;
-/// Relative to the tolerance: offsets of cuts beside the plane of a half model that are tried.
+/// Relative to the tolerance: distances from the plane of a half model at which the cut is tried.
 constexpr std::array k_half_shifts{0.0, 0.2, 0.5, 1.0, 2.0};
-constexpr std::size_t k_seed_cells = 24;  ///< along each axis, of the grid on which a location within a tunnel is searched
-constexpr double k_read_end = 0.05, k_close_end = 0.15, k_wrap_end = 0.5, k_fit_end = 0.85, k_measure_end = 0.95;  ///< fractions of the progress
+constexpr std::size_t k_seed_cells = 24;  ///< number of cells along each axis of the grid on which a location within a tunnel is searched
+/// Fractions of the progress at the ends of the steps.
+constexpr double k_read_end = 0.05, k_close_end = 0.15, k_wrap_end = 0.5, k_fit_end = 0.85, k_measure_end = 0.95;
 
 std::int64_t expected_triangles(double area, double edge) { return std::llround(k_triangles_per_area * area / (edge * edge)); }
 
-/// \param area m^2, to be covered by triangles
+/// \param area m^2, area that triangles will cover
 WrapSizes choose_sizes(double area, double length, const WrapOptions& options) {
   WrapSizes sizes;
   sizes.edge = !is_automatic(options.edge)
@@ -120,18 +123,18 @@ double area_of(const WrapSurface& wrap) {
   return area.value();
 }
 
-/// A wrap made to test if its gap closes the input's openings.
+/// A wrap that is made to test if its gap closes the openings of the input.
 struct GapTrial {
   double gap = 0.0, alpha = 0.0;  ///< m
   WrapSurface wrap;
-  double leaking = 0.0;  ///< leaking_share
+  double leaking = 0.0;  ///< result of leaking_share
 };
 
-/// Returns the limit of the `leaking` fraction above which a gap leaks.
+/// Returns the leaking fraction above which a gap is considered to leak.
 double leaking_limit(double least) { return least < k_leaking_share ? k_leaking_share : least + k_leaking_share; }
 
-/// Returns the smallest gap that does not leak. If all gaps leak, returns the smallest one that leaks about as little as the best one: where openings are as
-/// wide as the surface itself, a wider gap is of no use.
+/// Returns the smallest gap that does not leak. If all gaps leak, returns the smallest gap that leaks about as little as the best one, because a wider gap is
+/// of no use if openings are as wide as the surface itself.
 std::size_t least_gap(const std::vector<GapTrial>& trials) {
   double least = trials.front().leaking;
   for (const GapTrial& trial : trials) least = std::min(least, trial.leaking);
@@ -140,7 +143,7 @@ std::size_t least_gap(const std::vector<GapTrial>& trials) {
   return chosen;
 }
 
-/// Returns the diagonal (m) of the box of the widest opening, i.e. of connected borders.
+/// Returns the diagonal (m) of the box of the widest opening, which is a set of connected borders.
 double widest_opening(const WrapInput& input) {
   DisjointSets openings(input.mesh.n_vertices());
   for (const TriangleId t : input.mesh.triangles.ids())
@@ -163,7 +166,7 @@ void tell_gap(const std::vector<GapTrial>& trials, std::size_t chosen, double le
                             short_number(trials[chosen].gap) + " m");
 }
 
-/// Returns a location within the input, as far from it as can be found on a grid.
+/// Returns a location within the input. Of the locations on a grid it is the one farthest from the surface.
 Vec3 find_seed(const WrapInput& input, double alpha, const RunContext& context) {
   const TriangleTree tree(input.mesh, context);
   const Box box = bounding_box(input.mesh);
@@ -188,7 +191,8 @@ Vec3 find_seed(const WrapInput& input, double alpha, const RunContext& context) 
 
 double coarse_offset(const WrapSizes& sizes) { return std::min(k_coarse_offset * 0.5 * sizes.gap, sizes.edge); }
 
-/// Closes the openings wider than the edge's ball with facets from a wrap with a ball of half the gap: facets off the input that the input nearly encloses.
+/// Closes the openings that are wider than the edge's ball. It uses facets of a wrap with a ball of half the gap: those off the input that the input nearly
+/// encloses.
 /// \return a human-readable description; empty: no change
 std::string close_openings(const WrapInput& input, const WrapSizes& sizes, const WrapSurface& coarse, double least_winding, AlphaWrapInput& soup,
                            const RunContext& context) {
@@ -201,7 +205,7 @@ std::string close_openings(const WrapInput& input, const WrapSizes& sizes, const
       [&](std::size_t t) {
         const auto c = corners(mesh, TriangleId(std::uint64_t{t}));
         const Vec3 normal = normalized(area_vector(c[0], c[1], c[2]));
-        // Sampled densely enough for the narrowest openings through which the finer ball passes.
+        // Samples are dense enough for the narrowest openings through which the finer ball passes.
         const double longest = std::max({distance(c[0], c[1]), distance(c[1], c[2]), distance(c[2], c[0])});
         const int n = std::clamp(static_cast<int>(std::ceil(longest / (k_sample_step * sizes.edge))), 2, k_most_samples);
         for (int i = 0; i <= n && !is_closing[t]; ++i)
@@ -226,7 +230,7 @@ std::string close_openings(const WrapInput& input, const WrapSizes& sizes, const
   return "openings between the edge and the gap closed by " + std::to_string(n) + " triangles of a wrap with a ball of " + short_number(alpha) + " m radius";
 }
 
-/// Returns the given half, with its open boundary in the plane. If the wrap touches itself or the plane along the cut, the cut is made slightly further in,
+/// Returns the given half, with its open boundary in the plane. If the wrap touches itself or the plane along the cut, the cut is made slightly farther inside,
 /// and the half is shifted back.
 TriMesh cut_half(const TriMesh& mesh, const WrapInput& input, const WrapSizes& sizes, WrapReport& report, const RunContext& context) {
   const std::size_t axis = input.half_axis == "x" ? 0 : input.half_axis == "y" ? 1 : 2;
@@ -330,8 +334,8 @@ WrapResult wrap_surface(const std::vector<SurfaceSoup>& soups, const WrapOptions
     if (gaps.size() > 1) trials.back().leaking = leaking_share(input, trials.back().wrap, 0.25 * alpha, context);
     return trials.back().leaking;
   };
-  // Each wrap costs four times as much as that for the next wider gap. So if there are openings wider than the first gap, gaps are tried from the widest down
-  // until one leaks; else from the first up while they leak.
+  // A wrap costs four times as much as the wrap for the next wider gap. If there are openings wider than the first gap, gaps are therefore tried from the
+  // widest one down until one leaks. Otherwise they are tried from the first one upwards while they leak.
   if (gaps.size() > 1 && widest_opening(input) > gaps.front()) {
     double least = std::numeric_limits<double>::infinity();
     for (auto gap = gaps.rbegin(); gap != gaps.rend(); ++gap) {
@@ -362,8 +366,8 @@ WrapResult wrap_surface(const std::vector<SurfaceSoup>& soups, const WrapOptions
                               short_number(input.area) + " m^2: the edge is set to " + short_number(sizes.edge) + " m");
   }
   if (trial.alpha > sizes.edge) {
-    // First the facets that the input nearly encloses, so that grooves keep their depth. If the leaking fraction is larger than with a ball of half the gap,
-    // all facets closed by that ball.
+    // First only the facets that the input nearly encloses are used, so that grooves keep their depth. If the leaking fraction is then larger than with a ball
+    // of half the gap, all facets closed by that ball are used.
     const double most = std::max(k_leaking_share, trial.leaking + k_leaking_share);
     const double glance = k_glance_ball * sizes.edge;
     std::string closed;
@@ -371,7 +375,7 @@ WrapResult wrap_surface(const std::vector<SurfaceSoup>& soups, const WrapOptions
       soup = alpha_input(input);
       closed = close_openings(input, sizes, trial.wrap, least_winding, soup, context);
       const bool is_first = least_winding == k_closing;
-      // Openings that remain and are wider than the larger ball are detected with a sixteenth of the points.
+      // Openings that remain and are wider than the larger ball are detected with a sixteenth of the points of the final wrap.
       if (is_first && glance < trial.alpha) {
         wrap_with(glance, k_coarse_offset * glance, close_part);
         if (leaking_share(input, wrap, 0.25 * glance, context) >= most) continue;

@@ -1,4 +1,5 @@
-// Converts arbitrarily torn triangle soups to a closed surface around them: alpha wrap, then fitted back onto the input with its sharp edges and patches.
+// Converts arbitrarily torn triangle soups to a closed surface around them. Makes an alpha wrap, and fits it back onto the input with its sharp edges and
+// patches.
 #pragma once
 
 #include <array>
@@ -14,70 +15,70 @@
 namespace sterna::surfmesh {
 
 struct WrapOptions {
-  double edge = k_automatic;       ///< m; triangles of about this size, smaller where the input bends
-  double gap = k_automatic;        ///< m; openings up to this are closed
-  double tolerance = k_automatic;  ///< m; limit of the distance from the wrap to the input, except at closures
+  double edge = k_automatic;       ///< m; approximate size of triangles, which are smaller where the input bends
+  double gap = k_automatic;        ///< m; openings up to this width are closed
+  double tolerance = k_automatic;  ///< m; limit of the distance from the wrap to the input, except on closures
   double offset = k_automatic;     ///< m; approximate thickness of baffles in the result
-  double features = 0.698;         ///< rad, 40 degrees; edges of the input that bend by more are sharp
-  std::string half = "automatic";  ///< automatic: a surface open in a plane x, y or z = constant is half of a model
+  double features = 0.698;         ///< rad, default 40 degrees; edges of the input that bend by more are sharp
+  std::string half = "automatic";  ///< automatic: a surface that is open in a plane x, y or z = constant is half of a model
   int max_triangles = 3'000'000;
   double unit = 1.0;                 ///< metres per file unit
   double split_angle = k_automatic;  ///< rad
-  std::string fluid = "automatic";   ///< side of the outermost surface
+  std::string fluid = "automatic";   ///< side of the outermost surface that contains the fluid
 };
 
 /// A closed opening, or a groove too narrow for the wrap.
 struct WrapClosure {
-  Vec3 position;           ///< m, of the middle
+  Vec3 position;           ///< m, middle of the closure
   double size = 0.0;       ///< m, longest side of its box
   double area = 0.0;       ///< m^2
   double distance = 0.0;   ///< m, largest distance from the input
-  bool is_opening = true;  ///< its boundary is a border of the input; else a groove, or a corner between parts
+  bool is_opening = true;  ///< its boundary is a border of the input; false: a groove, or a corner between parts
 };
 
-/// An opening wider than `gap`: the wrap lies on the inner side of the input behind it.
+/// An opening wider than `gap`, behind which the wrap lies on the inner side of the input.
 struct WrapLeak {
-  Vec3 position;      ///< m, location where the wrap goes in
-  double area = 0.0;  ///< m^2 of the wrap inside
+  Vec3 position;      ///< m, location where the wrap enters the opening
+  double area = 0.0;  ///< m^2, area of the wrap inside
 };
 
-/// Triangles of the wrap at closures and at leaks, for drawing; for a half model those of the given half.
+/// Triangles of the wrap at closures and leaks, for drawing. For a half model only those of the given half.
 struct WrapDrawing {
   std::vector<Vec3> points;  ///< m
   std::vector<std::array<std::uint32_t, 3>> triangles;
 };
 
-/// Quality of the wrap: triangles by their smallest angle.
+/// Quality of the wrap: numbers of triangles by their smallest angle.
 struct WrapQuality {
   double min_angle = 0.0;          ///< rad
-  std::int64_t n_below_15 = 0;     ///< triangles with an angle below 15 degrees
-  std::int64_t n_at_features = 0;  ///< number of these with a corner on a sharp edge
+  std::int64_t n_below_15 = 0;     ///< number of triangles with an angle below 15 degrees
+  std::int64_t n_at_features = 0;  ///< number of these triangles that have a corner on a sharp edge
 };
 
 struct WrapReport {
   std::int64_t n_facets_read = 0;
   std::int64_t n_triangles = 0, n_vertices = 0, n_components = 0;
-  std::int64_t expected_triangles = 0;                          ///< estimated before wrapping
-  double edge = 0.0, gap = 0.0, tolerance = 0.0, offset = 0.0;  ///< m, as used
-  std::int64_t n_feature_edges = 0;                             ///< sharp edges and patch borders of the input
-  std::int64_t n_on_features = 0;                               ///< vertices of the wrap on them
-  std::int64_t n_off_input = 0;                                 ///< vertices that could not be moved back within the tolerance
+  std::int64_t expected_triangles = 0;                          ///< number of triangles estimated before wrapping
+  double edge = 0.0, gap = 0.0, tolerance = 0.0, offset = 0.0;  ///< m, values used
+  std::int64_t n_feature_edges = 0;                             ///< number of sharp edges and patch borders of the input
+  std::int64_t n_on_features = 0;                               ///< number of vertices of the wrap on these edges
+  std::int64_t n_off_input = 0;                                 ///< number of vertices that could not be moved back within the tolerance
   double to_input = 0.0;                                        ///< m; largest distance of samples of the wrap from the input, outside of closures
-  double to_input_closed = 0.0;                                 ///< m; the same at closures
+  double to_input_closed = 0.0;                                 ///< m; the same distance on closures
   double from_input = 0.0;                                      ///< m; largest distance of samples of the input that are not inside the wrap
-  std::int64_t n_beyond_tolerance = 0;                          ///< triangles outside of closures that are farther than the tolerance
-  Vec3 farthest;                                                ///< m, location on the wrap, outside of closures
-  std::int64_t n_inside = 0;                                    ///< facets of the input inside the wrap: inner parts, walls of closed volumes
+  std::int64_t n_beyond_tolerance = 0;                          ///< number of triangles outside of closures that are farther from the input than the tolerance
+  Vec3 farthest;                                                ///< m, farthest location on the wrap outside of closures
+  std::int64_t n_inside = 0;                                    ///< number of facets of the input inside the wrap: inner parts, walls of closed volumes
   double inside_area = 0.0;                                     ///< m^2
-  std::int64_t n_closures = 0;                                  ///< total number; `closures` has the largest
-  std::vector<WrapClosure> closures;                            ///< by falling size, at most k_max_closures
-  std::vector<WrapLeak> leaks;                                  ///< by falling area
-  std::string half_axis;                                        ///< "x", "y", "z" of a half model; empty: none
-  double half_at = 0.0;                                         ///< m
-  double half_moved = 0.0;                                      ///< m, largest distance of the input's boundary from the plane
+  std::int64_t n_closures = 0;                                  ///< total number; `closures` contains the largest ones
+  std::vector<WrapClosure> closures;                            ///< sorted by falling size, at most k_max_closures
+  std::vector<WrapLeak> leaks;                                  ///< sorted by falling area
+  std::string half_axis;                                        ///< axis "x", "y" or "z" of a half model; empty if it is none
+  double half_at = 0.0;                                         ///< m, coordinate of the plane
+  double half_moved = 0.0;                                      ///< m, largest distance of the input's boundary from the plane before it was moved there
   WrapDrawing drawing;
   WrapQuality quality;
-  std::vector<std::string> messages;  ///< one sentence each, as logged
+  std::vector<std::string> messages;  ///< sentences for the user, as written to the log
 };
 
 inline constexpr std::size_t k_max_closures = 50;
@@ -87,22 +88,22 @@ struct WrapResult {
   WrapReport report;
 };
 
-/// Wraps the soups (alpha wrap with a ball of the edge's size; openings between edge and gap are closed by a coarser wrap first). Then it moves the vertices
-/// back onto the input and onto its sharp edges where no self-intersection results, splits edges that are farther than the tolerance, improves the triangles,
-/// and gives each the patch of the nearest input facet. The soups need only finite coordinates. Inner parts vanish. A surface that is open in a plane x, y or
-/// z = constant by more than `gap` is a half model: it is mirrored, wrapped, and cut in the plane.
-/// Deterministic; the result does not depend on the number of threads. Cancellable between points and between steps.
-/// \post closed (a half model: open in its plane only, exactly), manifold, free of self-intersection by the exact test, normals into the fluid; patch names
-/// unique; every vertex used
-/// \throws Error(file_malformed) (index out of range, coordinate not finite); empty_surface; bad_argument for an edge that gives more than max_triangles,
-/// with the number, or a gap below the edge; self_intersection or open_surface if the proof fails
+/// Wraps the soups by an alpha wrap with a ball of the edge's size. Openings between edge and gap are first closed by a coarser wrap. The vertices of the wrap
+/// are moved back onto the input and onto its sharp edges, unless a self-intersection would result. Edges that are farther from the input than the tolerance
+/// are split. Triangles are improved, and each gets the patch of the nearest input facet. The only requirement for the soups is that coordinates are finite.
+/// Inner parts vanish. A surface that is open in a plane x, y or z = constant by more than `gap` is a half model: it is mirrored, wrapped, and cut in the
+/// plane. Deterministic; the result does not depend on the number of threads. Can be cancelled between points and between steps.
+/// \post The result is closed (a half model is open exactly in its plane, and only there), manifold, and free of self-intersection by the exact test. Normals
+/// point into the fluid. Patch names are unique, and every vertex is used.
+/// \throws Error(file_malformed) (index out of range, coordinate not finite); empty_surface; bad_argument for an edge that gives more than max_triangles (with
+/// the number), or a gap below the edge; self_intersection or open_surface if the final check fails
 WrapResult wrap_surface(const std::vector<SurfaceSoup>& soups, const WrapOptions& options, const RunContext& context);
 
-/// Estimate of a wrap, before the work.
+/// Estimate of a wrap, made before the work.
 struct WrapEstimate {
   double edge = 0.0;             ///< m
-  double widest_gap = 0.0;       ///< m; wider openings leak. An automatic gap grows up to this
-  std::int64_t n_triangles = 0;  ///< within a factor of 3; features and curvature add some
+  double widest_gap = 0.0;       ///< m; openings wider than this leak. An automatic gap is increased up to this value
+  std::int64_t n_triangles = 0;  ///< estimated number, within a factor of 3; features and curvature add some
 };
 /// Estimates a wrap for facets of the given area (m^2) and a body of the given length (m).
 WrapEstimate estimate_wrap(double area, double length, const WrapOptions& options);

@@ -12,9 +12,9 @@
 namespace sterna::volmesh {
 namespace {
 
-constexpr double k_side_share = 1e-6;  ///< distance tolerance to the sides of a domain's box, as a share of its longest side
+constexpr double k_side_share = 1e-6;  ///< distance within which a patch lies in a side of a domain's box, as a fraction of the box's longest side
 
-/// Returns the kind of a patch after the patch rules; the last matching rule counts.
+/// Returns the kind of a patch according to the patch rules; the last matching rule is used.
 PatchKind kind_of_patch(const Patch& patch, const MeshCase& options) {
   PatchKind kind = patch.kind;
   for (const PatchRule& rule : options.patches)
@@ -34,8 +34,8 @@ bool is_wake_unrefined(const TriMesh& surface, const MeshCase& options) {
   return has_walls;
 }
 
-/// Returns true if the surface encloses its fluid, by the flux of x along x. Normals point into the fluid. Openings in planes y or z = constant contribute
-/// nothing to this flux.
+/// Returns true if the surface encloses its fluid. Computes the flux of x along x: normals point into the fluid, and openings in planes y or z = constant
+/// contribute nothing to this flux.
 bool encloses_fluid(const TriMesh& surface) {
   const double middle = bounding_box(surface).center().x;
   double volume = 0.0;
@@ -46,7 +46,7 @@ bool encloses_fluid(const TriMesh& surface) {
   return volume < 0.0;
 }
 
-/// Patches that are outer walls of a domain: they lie in one side of its box, or reach from side to side along two axes.
+/// Finds the patches that are outer walls of a domain. They lie in one side of its box, or reach from side to side along two axes.
 Column<PatchId, std::uint8_t> outer_patches(const TriMesh& surface, const Box& domain) {
   std::vector<Box> boxes(surface.patches.size());
   for (const TriangleId t : surface.triangles.ids())
@@ -67,7 +67,7 @@ Column<PatchId, std::uint8_t> outer_patches(const TriMesh& surface, const Box& d
   return is_outer;
 }
 
-/// Distance from a point in the box to the box's side along a direction, m.
+/// Returns the distance in metres from a point in the box to the side of the box along a direction.
 double way_out(const Box& domain, const Point& from, const Vec3& along) {
   double way = 1e300;
   for (std::size_t k = 0; k < 3; ++k)
@@ -94,7 +94,7 @@ SizeSource wake_behind(const TriMesh& wall, const BodyWake& wake, const Vec3& di
     throw_bad_argument(attempted, is_domain ? "the surface encloses its fluid, and there is no wall inside it" : "the surface has no walls", {},
                        "give the wake's points: wake{ {1, 0, 0}, {1, 5, 0}, length = 10, height = 0.2, size = 0.05 }");
   if (!(norm(direction) > 0.0)) throw Error({.code = ErrorCode::bad_argument, .attempted = attempted, .problem = "the direction has no length"});
-  // Directions across the flow: sideways (along y if the flow is vertical) and upwards.
+  // Directions across the flow: `sideways` (along y if the flow is vertical) and upwards.
   const Vec3 along = normalized(direction), sideways = cross(Vec3{0.0, 0.0, 1.0}, along);
   const Vec3 across = norm(sideways) > 0.0 ? normalized(sideways) : Vec3{0.0, 1.0, 0.0}, up = cross(along, across);
   const auto extent = [&](const Vec3& axis) {

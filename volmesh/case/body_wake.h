@@ -1,4 +1,4 @@
-// Wake of a body: detection of bodies without wake refinement, and the size source that refines the wake.
+// Wake of a body: finds bodies without wake refinement, and makes the size source that refines the wake.
 #pragma once
 
 #include "geom/base/run_context.h"
@@ -15,17 +15,18 @@ struct BodyWake {
   double size_end = k_automatic;
   double spread = 0.05;
 };
-/// Returns a size source with short edges in the wake of the body: as wide and as high as the body, from the body's middle to `length` body lengths behind its
-/// end. In a surface that encloses its fluid (a tunnel with a model), the body is all walls except the outer walls, and the wake ends where the fluid ends.
+/// Returns a size source with short edges in the wake of the body. The source is as wide and as high as the body, and reaches from the body's middle to
+/// `length` body lengths behind its end. In a surface that encloses its fluid (a tunnel with a model), the body is all walls except the outer walls, and the
+/// wake ends where the fluid ends.
 /// \throws Error(bad_argument) for a surface without walls, and for a surface that encloses its fluid and has only outer walls
 SizeSource wake_behind(const TriMesh& wall, const BodyWake& wake, const Vec3& direction);
 
-/// Returns true for a body in a generated farfield without any size source or wake sheet, its own or the family's: its wake is resolved only by the growth of
-/// tetrahedra. Returns false for tunnels, for bodies with engines (their flow is not only around them), and for surfaces that are no body.
+/// Returns true for a body in a generated farfield without any size source or wake sheet, including those of a mesh family. Only the growth of tetrahedra then
+/// resolves its wake. Returns false for tunnels, for bodies with engines (which have inner flow as well), and for surfaces that are no body.
 bool has_bare_wake(const TriMesh& surface, const MeshCase& options);
 
-/// Adds the source wake{ wall }, along x, to members of a mesh family if nothing else refines the wake (family_wake). Edge lengths are those of the medium
-/// member. The log reports the addition. \pre not refined() yet
+/// Adds the source wake{ wall } along x to members of a mesh family if nothing else refines the wake (family_wake). Edge lengths are those of the medium
+/// member. The log reports the addition. \pre refined() has not been applied yet
 MeshCase with_family_wake(const TriMesh& surface, MeshCase options, const RunContext& context);
 
 }  // namespace sterna::volmesh

@@ -1,4 +1,4 @@
-// Options of the triangulation of adjacent patches, where layers end (rims/end_surface.h).
+// Options for the triangulation of adjacent patches, on which layers end (rims/end_surface.h).
 #pragma once
 
 #include <numbers>
@@ -9,8 +9,8 @@
 namespace sterna::volmesh {
 
 struct EndOptions {
-  double size_growth = 1.3;                            ///< ratio of the edges of neighbouring triangles away from the loops
-  double min_angle = 25.0 * std::numbers::pi / 180.0;  ///< rad: target; smaller angles remain where the loops force them
+  double size_growth = 1.3;                            ///< largest ratio of the edges of neighbouring triangles away from the loops
+  double min_angle = 25.0 * std::numbers::pi / 180.0;  ///< rad: target for the smallest angle; smaller angles remain where the loops force them
   int max_triangles = 20'000'000;
 };
 

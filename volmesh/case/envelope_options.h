@@ -51,8 +51,8 @@ struct Schema<volmesh::EnvelopeOptions> {
                .member = &O::layers,
                .min = 0,
                .max = 1000,
-               .help = "number of prism layers; 0: no layers, tetrahedra only; automatic: as many as are needed, with growth max_growth, for a last cell of at "
-                       "least half the height of a regular tetrahedron on nine tenths of the wall area",
+               .help = "number of prism layers; 0: no layers, tetrahedra only; automatic: with growth max_growth, as many layers as are "
+                       "needed so that on nine tenths of the wall area the last cell is at least half as high as a regular tetrahedron",
                .automatic = "from max_growth and the edge lengths of the walls"},
       Field<O>{.name = "first_height",
                .member = &O::first_height,

@@ -1,4 +1,4 @@
-// Members of a mesh family: the same mesh, finer or coarser.
+// Members of a mesh family: finer and coarser versions of the same mesh.
 #pragma once
 
 #include <string>
@@ -8,8 +8,8 @@
 
 namespace sterna::volmesh {
 
-/// Names of the family members and their refinement; consecutive members differ by 1.5 in edge length per direction, 3.4 times the nodes, as in the workshops
-/// since DPW-4.
+/// Names of the family members and their refinement factors. The edge lengths of consecutive members differ by a factor of 1.5 in each direction and their
+/// nodes by 3.4, as in the workshops since DPW-4.
 inline constexpr std::string_view k_family_names = "extra_coarse=0.4444444444444444 coarse=0.6666666666666666 medium=1 fine=1.5 extra_fine=2.25";
 
 struct FamilyOptions {
@@ -36,8 +36,8 @@ struct Schema<volmesh::FamilyOptions> {
                .choices = volmesh::k_family_names},
       Field<O>{.name = "family_wake",
                .member = &O::family_wake,
-               .help = "adds the source wake{ wall } if no source is given; its edges are divided by f, so that the wakes of the members differ by the same "
-                       "factor; automatic: added if refinement is given",
+               .help = "adds the source wake{ wall } if no source is given; the edge lengths of that source are divided by the refinement factor f, so that "
+                       "the wakes of the members differ by the same factor; automatic: added if refinement is given",
                .choices = "automatic on off"},
   };
 };

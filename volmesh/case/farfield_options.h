@@ -13,7 +13,7 @@ namespace sterna::volmesh {
 struct FarfieldOptions {
   std::string farfield_shape = "automatic";
   double farfield_radius = k_automatic;
-  double farfield_edge = k_automatic;  ///< a negative value, which users cannot enter, is a share of the automatic edge
+  double farfield_edge = k_automatic;  ///< a negative value, which users cannot enter, is a multiple of the automatic edge
   double farfield_center_x = k_automatic;
   double farfield_center_y = k_automatic;
   double farfield_center_z = k_automatic;
@@ -28,8 +28,8 @@ struct FarfieldOptions {
   std::string farfield_surface;
 };
 
-/// User settings for one side of the outer shape. Sides are x_min .. z_max for a box; start, end and side for a cylinder; patch names for other shapes. Planes
-/// that bodies end on are also sides: symmetry, or with several planes symmetry_y, symmetry_z, symmetry_y_min ...
+/// User settings for one side of the outer shape. The sides are x_min to z_max for a box; start, end and side for a cylinder; patch names for other shapes.
+/// Planes in which bodies end are also sides. They are called symmetry, or if there are several, symmetry_y, symmetry_z, symmetry_y_min and so on.
 struct SideRule {
   std::string side;
   std::string name;  ///< name of the side's patch; empty: the name of the kind
@@ -38,13 +38,13 @@ struct SideRule {
   double edge = k_automatic;  ///< m
 };
 
-/// Reads "x_min=inflow x_max=outflow,name:exit,edge:0.5 z_min=slip".
+/// Parses rules such as "x_min=inflow x_max=outflow,name:exit,edge:0.5 z_min=slip".
 /// \throws Error(bad_argument) with the invalid entry
 std::vector<SideRule> parse_sides(const std::string& text);
 /// Returns the string form of the rules; parse_sides() restores them.
 std::string sides_text(const std::vector<SideRule>& rules);
 
-/// Returns the patch kind of this name.
+/// Returns the patch kind with this name.
 /// \throws Error(bad_argument) with the list of kinds
 PatchKind patch_kind_of(const std::string& name, const std::string& attempted);
 
@@ -125,8 +125,9 @@ struct Schema<volmesh::FarfieldOptions> {
                        "empty: no floor"},
       Field<O>{.name = "farfield_sides",
                .member = &O::farfield_sides,
-               .help = "kinds, names and edge lengths of the farfield sides (box: x_min .. z_max; cylinder: start, end, side; else patches) and of the "
-                       "symmetry plane of a half model (symmetry): \"x_min=inflow x_max=outflow,name:exit,edge:0.5\"; empty: all farfield"},
+               .help = "kinds, names and edge lengths of the farfield sides, as SIDE=KIND[,name:NAME][,edge:LENGTH] separated by blanks, e.g. \"x_min=inflow "
+                       "x_max=outflow,name:exit,edge:0.5\". Sides of a box: x_min to z_max; of a cylinder: start, end, side; of a farfield surface: its "
+                       "patches; symmetry plane of a half model: symmetry; empty: all sides have kind farfield"},
       Field<O>{.name = "farfield_surface", .member = &O::farfield_surface, .help = "file of the closed farfield surface, for the shape \"surface\""},
   };
 };

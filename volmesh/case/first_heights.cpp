@@ -13,7 +13,7 @@ namespace {
 
 constexpr int k_height_digits = 4;
 
-/// Barycentric coordinates of a point in the triangle's plane; for a triangle without area, those of the first corner.
+/// Returns the barycentric coordinates of a point in the triangle's plane. For a triangle without area they are those of the first corner.
 std::array<double, 3> weights_of(const std::array<Point, 3>& t, const Point& p) {
   const Vec3 u = t[1] - t[0], v = t[2] - t[0], w = p - t[0];
   const Vec3 normal = cross(u, v);

@@ -1,4 +1,4 @@
-// First heights that vary over the surface: values of a function at the vertices, interpolated between them.
+// First heights that vary over the surface: the values of a function at the vertices are interpolated between them.
 #pragma once
 
 #include <memory>
@@ -14,17 +14,18 @@ class TriangleTree;  // geom/mesh/bvh.h
 
 namespace sterna::volmesh {
 
-/// Immutable; at() is thread-safe.
+/// Immutable. at() is thread-safe.
 class FirstHeights {
  public:
-  /// One height per vertex, metres.
+  /// \p heights one per vertex, in metres
   /// \throws Error(bad_argument) with the location of a height that is not a length of at least k_least_first_height
   FirstHeights(const TriMesh& surface, std::vector<double> heights, const RunContext& context);
   ~FirstHeights();
   FirstHeights(const FirstHeights&) = delete;
   FirstHeights& operator=(const FirstHeights&) = delete;
 
-  /// Returns the height at a point, m: bit-exact at a vertex, otherwise at the nearest point of the surface, interpolated in logarithms over its triangle.
+  /// Returns the height at a point in metres. At a vertex the given value is returned bit-exactly. Elsewhere the logarithms of the heights are interpolated at
+  /// the nearest point of the surface.
   double at(const Point& p) const;
   double least() const { return least_; }
   double greatest() const { return greatest_; }
@@ -39,6 +40,6 @@ class FirstHeights {
   std::unique_ptr<const TriangleTree> tree_;
 };
 
-inline constexpr double k_least_first_height = 1e-12;  ///< m, same minimum as the option first_height
+inline constexpr double k_least_first_height = 1e-12;  ///< m; the same lower limit as that of the option first_height
 
 }  // namespace sterna::volmesh

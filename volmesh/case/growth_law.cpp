@@ -8,28 +8,28 @@
 namespace sterna::volmesh {
 namespace {
 
-/// Below this r - 1 the quotient (r^n - 1)/(r - 1) loses digits; the binomial series to third order is exact to 1e-16 there for n <= 1000.
+/// For r - 1 below this value the quotient (r^n - 1)/(r - 1) loses digits. The binomial series to third order is exact to 1e-16 there, for n <= 1000.
 constexpr double k_near_one = 1e-9;
 constexpr int k_newton_steps = 60;
 constexpr double k_ratio_tolerance = 1e-14;  ///< relative change of r - 1 that ends the iteration
 
-/// (r^n - 1)/(r - 1) from q = r - 1, without cancellation.
+/// Returns (r^n - 1)/(r - 1) for q = r - 1, without cancellation.
 double geometric_sum(double q, int n) {
   if (q < k_near_one) return n * (1.0 + 0.5 * (n - 1) * q);
   return std::expm1(n * std::log1p(q)) / q;
 }
 
-constexpr int k_bend_steps = 100;            ///< Newton or bisection steps
+constexpr int k_bend_steps = 100;            ///< largest number of Newton or bisection steps
 constexpr double k_sum_tolerance = 1e-13;    ///< relative to the total height
-constexpr double k_unbent = 1.0 / 3.0;       ///< share of the least height for the first cell; growth lines this low have the bend of full-height lines
-constexpr double k_compressed = 1.0 + 1e-9;  ///< relative to n h0
+constexpr double k_unbent = 1.0 / 3.0;       ///< fraction of the least height for the first cell: growth lines below it have the bend of full-height lines
+constexpr double k_compressed = 1.0 + 1e-9;  ///< relative to n h0: lower heights are compressed
 constexpr double k_largest_bend = 1e200;     ///< larger than any bend required by a height above n h0
-constexpr double k_least_edge_share = 0.4;   ///< lower limit of the edge length at which the bend of a low growth line acts, as a share of the line's edge
+constexpr double k_least_edge_share = 0.4;   ///< lower limit of the edge length at which the bend of a low growth line acts, as a fraction of the line's edge
 constexpr double k_log_step = 1.0;           ///< step in the logarithm of the first height
 constexpr double k_first_tolerance = 1e-14;  ///< tolerance in the logarithm of the first height
-constexpr double k_kept_growth = 0.6;  ///< share of r - 1 at the top of a full-height growth line that lower lines keep before their first cells get lower
+constexpr double k_kept_growth = 0.6;  ///< fraction of r - 1 at the top of a full-height growth line that lower lines keep before their first cells get lower
 
-/// Cell heights of a growth line with this bend: their sum, and the derivative of the sum with respect to the bend.
+/// Sum of the cell heights of a growth line with a given bend, and the derivative of the sum with respect to the bend.
 struct BentSum {
   double sum = 0.0, slope = 0.0;
   double last = 0.0, ratio = 1.0;  ///< height and ratio of the last cell
@@ -64,7 +64,7 @@ BentSum bent_sum(const LineGrowth& line, double bend, int n) {
 
 /// Returns the bend whose cell heights have this sum, by Newton's method between bounds. \pre n >= 2, height above n h0
 double bend_for_height(const LineGrowth& line, double height, int n) {
-  double low = 0.0, high = 0.0;  // bounds of the bend: the sum is above the height at `low`, below it at `high`
+  double low = 0.0, high = 0.0;  // bounds of the bend; the sum of heights is above the target at `low` and below it at `high`
   const double straight = bent_sum(line, 0.0, n).sum;
   if (std::abs(straight - height) <= k_sum_tolerance * height) return 0.0;
   double step = 1.0;
@@ -101,7 +101,7 @@ struct CommonCells {
   double edge = 0.0;  ///< m, edge length at which the bend acts (bend_share)
 };
 
-/// Bend of a growth line of target height (at least 0), and the largest bend of a lower line.
+/// Bend of a growth line that has the target height (at least 0), and the largest bend of a lower line.
 struct Bends {
   double asked = 0.0, largest = 0.0;
 };
@@ -112,7 +112,8 @@ Bends bends_of(const LineGrowth& line, int n) {
   return {std::max(0.0, bend), std::max(0.0, line.common / (1.0 + k_kept_growth * (top - 1.0)) - 1.0)};
 }
 
-/// Returns the first height, m, with which n cells of this bend have the total height `height`, by bisection of its logarithm: the sum grows with it.
+/// Returns the first height in metres with which n cells of this bend have the total height `height`. Uses bisection of its logarithm, because the sum grows
+/// with the first height.
 /// \pre the sum with line.h0 is at least `height`
 double first_for_height(LineGrowth line, double bend, double height, int n) {
   double high = std::log(line.h0), low = high;
@@ -136,7 +137,7 @@ CommonCells common_cells(const LineGrowth& line, double height, int n) {
   const Bends bends = bends_of(line, n);
   const double lowest = bent_sum(line, bends.largest, n).sum;
   if (height > lowest) return {line.h0, bend_for_height(line, height, n), line.edge};
-  // The first cell is reduced in any case: the lower the growth line, the more its last cells grow as on a full-height line.
+  // The first cell is reduced in any case. The lower the growth line is, the more its last cells grow like those of a full-height line.
   const double squeeze = std::clamp((height / lowest - k_unbent) / (1.0 - k_unbent), 0.0, 1.0);
   const double bend = bends.asked + squeeze * (bends.largest - bends.asked);
   const double share = height / bent_sum(line, bend, n).sum;
@@ -147,7 +148,7 @@ CommonCells common_cells(const LineGrowth& line, double height, int n) {
   return {first_for_height(low, bend, height, n), bend, low.edge};
 }
 
-/// The growth line with the first height and edge of its actual cells.
+/// Returns the growth line with the first height and edge of its actual cells.
 LineGrowth as_made(LineGrowth line, const CommonCells& cells) {
   line.h0 = cells.first;
   line.edge = cells.edge;
@@ -175,7 +176,7 @@ double height_by_edge(double h0, double edge, double r_max, int n, bool has_comm
 double growth_for_height(double h0, double height, int n) {
   const double wanted = height / h0;
   if (n == 1 || wanted <= n) return 1.0;
-  // The sum exceeds its last term (1+q)^(n-1), so this start lies above the root; the sum is convex in q: Newton descends monotonically.
+  // The sum exceeds its last term (1+q)^(n-1), so this start lies above the root. The sum is convex in q, so Newton's method descends monotonically.
   double q = std::expm1(std::log(wanted) / (n - 1));
   for (int step = 0; step < k_newton_steps; ++step) {
     const double s = geometric_sum(q, n);

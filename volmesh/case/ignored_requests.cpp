@@ -26,7 +26,7 @@ std::string joined(const std::vector<std::string>& texts, const char* between) {
   return text;
 }
 
-/// Returns the layer options that the rule sets, as the user writes them; empty if it sets none.
+/// Returns the layer options that the rule sets, as the user writes them. Returns an empty list if it sets none.
 std::vector<std::string> layer_requests(const PatchRule& rule) {
   std::vector<std::string> requests;
   const auto add = [&](const char* name, const std::string& value) { requests.push_back(std::string(name) + " = " + value); };
@@ -44,10 +44,10 @@ std::vector<std::string> layer_requests(const PatchRule& rule) {
   return requests;
 }
 
-/// Returns true if the rule removes the layers of its patches, whatever other rules request.
+/// Returns true if the rule removes the layers of its patches, whatever other rules set.
 bool ends_layers(const PatchRule& rule) { return rule.layers == 0 || (rule.kind != k_nothing.kind && rule.kind != "wall"); }
 
-/// Returns true if the rule was made for a placed part, from its length, and not by the user.
+/// Returns true if the program derived the rule from the length of a placed part, so the user has not given it.
 bool is_of_part(const PatchRule& rule, std::size_t n_requests, const MeshCase& options) {
   return !options.parts.empty() && n_requests == 1 && !is_automatic(rule.max_thickness);
 }
@@ -56,8 +56,8 @@ bool is_of_part(const PatchRule& rule, std::size_t n_requests, const MeshCase& o
 struct RuleUse {
   std::vector<std::string> without;  ///< names of matching patches without layers, each with the reason
   bool is_used = false;              ///< a patch with layers uses the rule
-  bool is_replaced = true;           ///< a later rule removes the layers of all other patches
-  bool is_no_wall = false;           ///< a patch is not of kind wall
+  bool is_replaced = true;           ///< a later rule removes the layers of all other matching patches
+  bool is_no_wall = false;           ///< one of the matching patches is not of kind wall
 };
 
 RuleUse use_of(std::size_t i, const Column<PatchId, Patch>& patches, const Column<PatchId, std::uint8_t>& has_layer, std::span<const PatchRule> rules) {
@@ -102,19 +102,19 @@ void warn_of_unused_options(const Column<PatchId, Patch>& patches, const Column<
 
 /// A group of options and the farfield shape it belongs to.
 struct FarfieldGroup {
-  std::string given;  ///< "farfield_radius = 5", empty where none is given
+  std::string given;  ///< option as given, such as "farfield_radius = 5"; empty if none is given
   bool is_used;
   const char* shapes;
 };
 
-/// Locations with larger winding numbers are in the fluid or on its boundary.
+/// Locations with a larger winding number are in the fluid or on its boundary.
 constexpr double k_in_fluid = 0.25;
-/// Samples of a region along each side of its bounding box.
+/// Number of samples of a region along each side of its bounding box.
 constexpr int k_region_samples = 5;
-/// Factor on the longest edge at a boundary vertex: a source that requests longer edges there refines nothing near the vertex.
+/// Factor on the longest edge at a boundary vertex. A source that requests longer edges there refines nothing near the vertex.
 constexpr double k_of_edge = 2.0;
 
-/// Distance of a location from the region of a source, m.
+/// Returns the distance of a location from the region of a source in metres.
 double distance_from(const SizeSource& source, const Point& p) { return size_of(source, p, 1.0) - size_of(source, p, 0.0); }
 
 /// Returns a bounding box of the region of a source.
@@ -142,7 +142,7 @@ Box box_of(const SizeSource& source) {
   return box;
 }
 
-/// Sample points of the region: points of a grid in its box that lie inside, its ends and its middle.
+/// Returns sample points of the region: those points of a grid in its box that lie inside, its ends and its middle.
 std::vector<Point> samples_of(const SizeSource& source) {
   if (source.kind == SourceKind::samples) return source.points;
   std::vector<Point> samples = {source.from};
@@ -171,7 +171,7 @@ std::string text_of(const SizeSource& source, std::size_t number) {
          (source.kind == SourceKind::samples ? "by location" : in_metres(source.size, 4)) + ")";
 }
 
-/// Longest edge at each vertex, m.
+/// Returns the longest edge at each vertex in metres.
 Column<VertexId, double> longest_edges(const TriMesh& boundary) {
   Column<VertexId, double> longest(boundary.n_vertices(), 0.0);
   for (const TriangleVertices& t : boundary.triangles)
@@ -195,7 +195,7 @@ void require_used_farfield(const FarfieldOptions& options) {
   const auto given = [](std::initializer_list<std::pair<const char*, double>> members) {
     std::vector<std::string> texts;
     for (const auto& [name, value] : members)
-      if (!is_automatic(value) && !(std::string_view(name) == "farfield_edge" && value <= 0.0))  // negative: set by the family
+      if (!is_automatic(value) && !(std::string_view(name) == "farfield_edge" && value <= 0.0))  // a negative value was set by the mesh family
         texts.push_back(std::string(name) + " = " + number_text(value));
     return joined(texts, ", ");
   };
@@ -232,7 +232,7 @@ void warn_of_sources_outside(const TriMesh& boundary, const MeshCase& options, c
   Column<VertexId, double> longest;
   for (std::size_t i = 0; i < options.sources.size(); ++i) {
     const SizeSource& source = options.sources[i];
-    if (!problem_of(source, options.size.size_growth).empty()) continue;  // rejected later, when the size field is built
+    if (!problem_of(source, options.size.size_growth).empty()) continue;  // such a source is rejected later, when the size field is built
     const std::vector<Point> samples = samples_of(source);
     if (std::ranges::any_of(samples, [&](const Point& p) { return std::abs(tree.winding_number(p)) > k_in_fluid; })) continue;
     NearestHit nearest;

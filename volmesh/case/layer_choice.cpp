@@ -11,8 +11,8 @@
 namespace sterna::volmesh {
 namespace {
 
-constexpr int k_most_layers = 1000;       ///< upper limit, same as that of the option
-constexpr double k_largest_growth = 3.0;  ///< upper limit, same as that of the option
+constexpr int k_most_layers = 1000;       ///< upper limit, equal to that of the option layers
+constexpr double k_largest_growth = 3.0;  ///< upper limit, equal to that of the option max_growth
 constexpr double k_rounding = 1e-9;       ///< relative: heights that differ by less are equal
 
 Error bad(std::string_view where, std::string problem, std::string hint) {
@@ -121,7 +121,7 @@ MeshCase effective_options(const MeshCase& user_options, const RunContext& conte
   if (is_automatic(e.total_height)) return options;
   if (!is_automatic(e.max_thickness) && e.max_thickness < e.total_height)
     throw bad("all walls", print_text("total_height %g m is above max_thickness %g m", e.total_height, e.max_thickness), "leave max_thickness out");
-  if (is_automatic(e.first_height)) return options;  // patches have their own first heights and are solved one by one
+  if (is_automatic(e.first_height)) return options;  // patches have their own first heights, and layers are solved for each patch
   if (is_automatic(e.layers)) {
     if (e.solve_for == "max_growth")
       throw bad("all walls", "max_growth is to follow from total_height, but the number of layers is not given", "give layers, or solve_for = \"layers\"");

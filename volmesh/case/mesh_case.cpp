@@ -16,7 +16,7 @@ void append(OptionTable& table, T& options, MeshSteps steps) {
 
 OptionTable options_of(MeshOptions& options, MeshSteps steps) {
   OptionTable table;
-  // The only list of the option structs: a new struct does not compile until it is added here.
+  // This is the only list of the option structs. A new struct does not compile until it is added here.
   auto& [family, needles, ridges, envelope, prisms, farfield, ends, size, tetrahedra, improve, limits] = options;
   const auto add = [&](auto&... of_stages) { (append(table, of_stages, steps), ...); };
   add(family, needles, ridges, envelope, prisms, farfield, ends, size, tetrahedra, improve, limits);

@@ -1,4 +1,4 @@
-// The complete request for a volume mesh except the surface: options of every stage, and inputs that are no options.
+// The complete request for a volume mesh except the surface: options of every stage, and inputs that are not options.
 #pragma once
 
 #include <memory>
@@ -27,7 +27,7 @@
 
 namespace sterna::volmesh {
 
-/// Options of all stages, in stage order; each has a Schema.
+/// Options of all stages, in the order of the stages. Each struct has a Schema.
 struct MeshOptions {
   FamilyOptions family;
   NeedleOptions needles;
@@ -42,29 +42,31 @@ struct MeshOptions {
   LimitOptions limits;
 };
 
-/// Inputs that are no options, and known properties of the surface.
+/// Inputs that are not options, and known properties of the surface.
 struct MeshFacts {
-  /// First heights by location, where patch rules set none; null: envelope.first_height. If set, envelope.first_height is their minimum.
+  /// First heights that depend on the location, for patches whose rules set none. Null: envelope.first_height applies. If set, envelope.first_height is their
+  /// minimum.
   std::shared_ptr<const FirstHeights> first_heights;
-  std::vector<PatchRule> patches;                   ///< patch-specific settings; of several matching rules the last counts (sort_by_pattern)
-  std::shared_ptr<const TriMesh> farfield_surface;  ///< for the farfield shape "surface"
+  std::vector<PatchRule> patches;                   ///< settings for patches; if several rules match, the last one is used (sort_by_pattern)
+  std::shared_ptr<const TriMesh> farfield_surface;  ///< outer boundary for the farfield shape "surface"
   std::vector<SizeSource> sources;                  ///< sources of the size field
-  std::vector<ActuatorDisc> discs;                  ///< in the fluid
-  std::vector<WakeSheet> wakes;                     ///< behind trailing edges of the walls
+  std::vector<ActuatorDisc> discs;                  ///< actuator discs in the fluid
+  std::vector<WakeSheet> wakes;                     ///< wake sheets behind trailing edges of the walls
   std::vector<PeriodicNames> periodic;              ///< pairs of patches, including added patches, that must match node by node and face by face
-  /// rad: largest dihedral turn in the smooth part of the wall, if the surface mesher provides it; sets the default feature angle.
+  /// Rad: largest dihedral turn in the smooth part of the wall, if the surface mesher provides it. The default feature angle follows from it.
   double smooth_angle = k_automatic;
-  std::vector<PlacedPart> parts;  ///< parts of the wall meshed elsewhere and moved; their envelopes are made there, too, and moved (joint_envelope.h)
+  /// Parts of the wall that were meshed in their own frame and moved; their envelopes are also made in that frame and moved (joint_envelope.h).
+  std::vector<PlacedPart> parts;
 };
 
-/// The complete request. It must have no members of its own: they would be in no option list.
+/// The complete request. It must have no members of its own, because no option list would contain them.
 struct MeshCase : MeshOptions, MeshFacts {};
 
 /// Returns all options of all stages, for Lua, the command line, help and the manifest. `options` must outlive the table.
 OptionTable options_of(MeshOptions& options);
 /// Returns the options that may be given at one of the steps.
 OptionTable options_of(MeshOptions& options, MeshSteps steps);
-/// Returns all options. first_height is not required if patch rules give it (layers_of_patches then checks each patch with layers), or if no patch has layers.
+/// Returns all options. first_height is not required if patch rules give it (layers_of_patches then checks each patch with layers), nor if no patch has layers.
 OptionTable required_options_of(MeshCase& mesh_case);
 
 }  // namespace sterna::volmesh

@@ -1,4 +1,5 @@
-// Patch rules: settings that replace the global wall options on patches whose names match. Options only; volmesh/envelope/patch_layers.h applies them.
+// Patch rules: settings that replace the options for all walls on patches whose names match. This file defines the options only;
+// volmesh/envelope/patch_layers.h applies them.
 #pragma once
 
 #include <string>
@@ -9,7 +10,7 @@ namespace sterna::volmesh {
 
 struct PatchRule {
   static constexpr int k_as_all = -1;
-  std::string names;  ///< glob: "tunnel*"
+  std::string names;  ///< pattern for names, such as "tunnel*"
   std::string kind = "as_read";
   int layers = k_as_all;
   double first_height = k_automatic;

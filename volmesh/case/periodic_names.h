@@ -1,4 +1,4 @@
-// Pairs of patches that the user declares periodic.
+// Pairs of patches that the user declares to be periodic.
 #pragma once
 
 #include <string>

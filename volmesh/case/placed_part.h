@@ -1,4 +1,4 @@
-// A part of a surface that was meshed or read in its own frame and then only moved and turned. Results made in that frame can be moved with the part.
+// A part of a surface that was meshed or read in its own frame and was only moved and turned afterwards. Results made in that frame can be moved with the part.
 #pragma once
 
 #include <cstdint>
@@ -11,11 +11,11 @@
 namespace sterna::volmesh {
 
 struct PlacedPart {
-  std::shared_ptr<const TriMesh> own;  ///< in its own frame: triangles and vertices in the same order as in the surface
-  Transform placement;                 ///< rotation and shift; p -> placement.point(p); without any motion, p unchanged
-  std::uint32_t first_triangle = 0;    ///< index in the surface
+  std::shared_ptr<const TriMesh> own;  ///< the part in its own frame, with triangles and vertices in the same order as in the surface
+  Transform placement;                 ///< rotation and shift: p becomes placement.point(p); without motion, p stays bitwise unchanged
+  std::uint32_t first_triangle = 0;    ///< number of its first triangle in the surface
   std::uint32_t first_vertex = 0;
-  double smooth_angle = k_automatic;  ///< rad: MeshCase::smooth_angle of the part alone
+  double smooth_angle = k_automatic;  ///< rad: MeshCase::smooth_angle for this part alone
 };
 
 }  // namespace sterna::volmesh

@@ -33,7 +33,7 @@ double distance_to_cylinder(const Vec3& p, const Vec3& a, const Vec3& b, double 
   return std::hypot(beside, beyond);
 }
 
-/// Edge length in the frame of the wake: s along the direction, c across it along the edge, z out of its plane. The section at s is a rectangle.
+/// Returns the edge length in the frame of the wake: s along the direction, c across it along the edge, z out of its plane. The section at s is a rectangle.
 double size_of_wake(const SizeSource& wake, const Vec3& p, double slope) {
   const Vec3 stream = normalized(wake.direction);
   const Vec3 edge = wake.to - wake.from;
@@ -42,7 +42,7 @@ double size_of_wake(const SizeSource& wake, const Vec3& p, double slope) {
   const Vec3 r = p - wake.from;
   const double c = dot(r, across);
   const double span = dot(edge, across);
-  // The wake of a swept edge starts farther downstream at the edge's other end.
+  // The wake of a swept edge starts farther downstream at the other end of the edge.
   const double start = dot(edge, stream) * (span > 0.0 ? std::clamp(c / span, 0.0, 1.0) : 0.0);
   const double s = dot(r, stream) - start;
   const double inside = std::clamp(s, 0.0, wake.length);

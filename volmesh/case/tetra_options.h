@@ -70,13 +70,13 @@ struct Schema<volmesh::TetraOptions> {
                .max = 1e9,
                .help = "largest number of new points inside the volume; more points are a failure of the engine",
                .automatic = "no limit"},
-      Field<O>{
-          .name = "boundary_splits",
-          .member = &O::boundary_splits,
-          .help =
-              "whether TetGen may split triangles on top of the layer and of the farfield; wall triangles are split with them. ladder: only by points on edges "
-              "that TetGen cannot remove again, and after failures of the engines if TetGen cannot keep the triangles; always: also for better tetrahedra",
-          .choices = "never ladder always"},
+      Field<O>{.name = "boundary_splits",
+               .member = &O::boundary_splits,
+               .help =
+                   "whether TetGen may split triangles on top of the layer and of the farfield; wall triangles are split with them. ladder: only where TetGen "
+                   "cannot remove points on edges again, and, after failures of the engines, where TetGen cannot keep the triangles; always: also for better "
+                   "tetrahedra",
+               .choices = "never ladder always"},
       Field<O>{.name = "try_other_engine", .member = &O::try_other_engine, .help = "after a reproducible failure of the engine, another engine is tried"},
       Field<O>{.name = "repair_boundary",
                .member = &O::repair_boundary,

@@ -9,8 +9,8 @@
 namespace sterna::volmesh {
 namespace {
 
-constexpr double k_told = 0.1;   ///< share of the area above which a report is made
-constexpr double k_reach = 0.9;  ///< share of the area that the recommended number of layers must reach
+constexpr double k_told = 0.1;   ///< fraction of the wall area above which a report is made
+constexpr double k_reach = 0.9;  ///< fraction of the wall area that the recommended number of layers must reach
 
 bool is_one_request(const MeshCase& options) {
   const EnvelopeOptions& e = options.envelope;
@@ -18,7 +18,7 @@ bool is_one_request(const MeshCase& options) {
          is_automatic(e.max_thickness) && !is_automatic(e.first_height) && e.max_growth > 1.0;
 }
 
-/// Least height of a fitting last cell, and the area of its triangle.
+/// Smallest height of the last cell that fits the tetrahedra, and the area of its triangle.
 struct Wanted {
   double height, area;
 };

@@ -21,14 +21,14 @@ namespace sterna::volmesh {
 namespace {
 
 constexpr const char* k_completing_attempt = "completing the boundary";
-constexpr double k_shape_snap = 0.3;  ///< HalfOptions::snap: keeping the shape's own triangles matters less than good triangles at its open boundary
+constexpr double k_shape_snap = 0.3;  ///< for HalfOptions::snap: good triangles at the open boundary of the shape matter more than keeping its own triangles
 
 bool is_changed(const FarfieldOptions& options) {
   FarfieldOptions defaults, copy = options;
   const OptionTable table = sterna::options_of(copy), of_defaults = sterna::options_of(defaults);
   for (std::size_t i = 0; i < table.size(); ++i) {
-    if (table[i].name == "farfield_sides") continue;                             // also applies to planes
-    if (table[i].name == "farfield_edge" && copy.farfield_edge < 0.0) continue;  // a share of the automatic edge
+    if (table[i].name == "farfield_sides") continue;                             // this option also applies to planes
+    if (table[i].name == "farfield_edge" && copy.farfield_edge < 0.0) continue;  // such a value is a multiple of the automatic edge
     const OptionValue value = table[i].get();
     if (const auto* number = std::get_if<double>(&value)) {
       if (!is_automatic(*number)) return true;
@@ -39,7 +39,7 @@ bool is_changed(const FarfieldOptions& options) {
   return false;
 }
 
-/// Components that reach farthest along some axis that no plane cuts: nothing encloses them.
+/// Returns the components that reach farthest along some axis that no plane cuts. Nothing encloses these components.
 std::vector<std::uint32_t> outermost(const TriMesh& mesh, const Components& components, std::span<const EndPlane> ends) {
   std::vector<std::uint32_t> result;
   for (std::size_t k = 0; k < 3; ++k) {
@@ -61,7 +61,7 @@ std::vector<std::uint32_t> outermost(const TriMesh& mesh, const Components& comp
   return result;
 }
 
-/// Returns true if the surface encloses its fluid. \throws if some of the outermost components enclose the fluid and some do not
+/// Returns true if the surface encloses its fluid. \throws if some of the outermost components enclose the fluid and others do not
 bool is_enclosing(const TriMesh& mesh, const Topology& topology, std::span<const EndPlane> ends) {
   const Components components = connected_components(mesh, topology);
   const std::vector<double> volumes = volumes_of(mesh, components, ends);
@@ -82,7 +82,7 @@ bool is_enclosing(const TriMesh& mesh, const Topology& topology, std::span<const
   throw Error(std::move(info));
 }
 
-/// Checks one vertex of each part, off the planes. This is enough: preflight finds intersections.
+/// Checks one vertex of each part that is not in the planes. This is sufficient, because preflight finds intersections.
 void check_encloses(const TriMesh& surface, const Topology& topology, std::span<const EndPlane> ends, const TriMesh& shape, const RunContext& context) {
   const Components components = connected_components(surface, topology);
   const TriangleTree tree(shape, context);
@@ -105,7 +105,7 @@ void turn(TriMesh& mesh) {
   for (TriangleVertices& t : mesh.triangles) std::swap(t[1], t[2]);
 }
 
-/// The user's surface with normals into the fluid; kind farfield where no other kind is known.
+/// Returns the user's surface with normals into the fluid. Patches of unknown kind get kind farfield.
 TriMesh shape_of_user(const TriMesh& surface, const Topology& topology, const OuterOptions& options, std::span<const EndPlane> ends,
                       const RunContext& context) {
   if (!options.surface || options.surface->n_triangles() == 0)
@@ -138,7 +138,8 @@ TriMesh make_shape(const TriMesh& surface, const Topology& topology, const Outer
   return farfield_sphere(surface, options.farfield, context, ends);
 }
 
-/// Applies the side rules to the patches of the shape. Sides without a rule become one "farfield"; sides of equal name and kind become one patch.
+/// Applies the side rules to the patches of the shape. Sides without a rule are merged into one patch "farfield". Sides of equal name and kind become one
+/// patch.
 void apply_rules(std::span<const SideRule> rules, bool has_sides, TriMesh& shape) {
   Column<PatchId, Patch> patches;
   Column<PatchId, PatchId> old2new;
@@ -186,7 +187,7 @@ std::vector<Patch> default_patches(std::span<const EndPlane> ends) {
 
 std::string side_of(const EndPlane& end) { return std::string(1, "xyz"[end.axis]) + (end.inward > 0.0 ? "_min" : "_max"); }
 
-/// Merges rules for a box: a plane that bodies end on is one of the box's sides, and a rule may name either. \throws if rules name both
+/// Merges rules for a box. A plane in which bodies end is one of the box's sides, and a rule may name either of them. \throws if rules name both
 std::vector<SideRule> rules_for_box(std::vector<SideRule> rules, std::span<const EndPlane> ends) {
   const std::vector<Patch> planes = default_patches(ends);
   for (SideRule& rule : rules)
@@ -196,7 +197,7 @@ std::vector<SideRule> rules_for_box(std::vector<SideRule> rules, std::span<const
       if (std::ranges::find(rules, side, &SideRule::side) != rules.end())
         throw_bad_argument("farfield_sides", "\"" + rule.side + "\" and \"" + side + "\" are the same plane", {}, "leave one of the two rules out");
       rule.side = side;
-      // Same default as for a plane of another shape: a plane of symmetry unless specified otherwise.
+      // The default is the same as for a plane of another shape: a plane of symmetry, unless specified otherwise.
       if (!rule.has_kind) rule.kind = PatchKind::symmetry;
       if (!rule.has_kind && rule.name.empty()) rule.name = planes[i].name;
       rule.has_kind = true;
@@ -204,8 +205,8 @@ std::vector<SideRule> rules_for_box(std::vector<SideRule> rules, std::span<const
   return rules;
 }
 
-/// Patches and edge lengths of the planes: from the rules for the plane or for the box's side there; otherwise from the shape's patch there; otherwise
-/// symmetry.
+/// Patches and edge lengths of the planes. They come from the rules for the plane or for the side of the box in that plane. Without rules they come from the
+/// patch of the shape in that plane; without such a patch the plane is a symmetry plane.
 struct PlaneRequests {
   std::vector<Patch> patches;
   std::vector<double> edges;  ///< m, automatic if no rule sets it
@@ -249,7 +250,7 @@ void check_rules(std::span<const SideRule> rules, const TriMesh* shape, std::spa
   }
 }
 
-/// Returns true if two of the planes are a periodic pair: their boundary edges on a sphere would not be images of each other.
+/// Returns true if two of the planes are a periodic pair. Their boundary edges on a sphere would not be images of each other.
 bool has_periodic_planes(std::span<const EndPlane> ends, std::span<const PeriodicNames> pairs) {
   const std::vector<Patch> planes = default_patches(ends);
   const auto is_plane = [&](const std::string& name) { return std::ranges::find(planes, name, &Patch::name) != planes.end(); };
@@ -282,7 +283,7 @@ TriMesh cut(TriMesh shape, std::span<const EndPlane> ends, const RunContext& con
   return shape;
 }
 
-/// Appends a number to a name that the surface already has, unless the kind is also the same.
+/// Appends a number to the name if the surface already has a patch of this name but of another kind.
 void make_names_new(const TriMesh& surface, Patch& patch) {
   const std::string name = patch.name;
   const auto is_taken = [&] {
@@ -292,7 +293,7 @@ void make_names_new(const TriMesh& surface, Patch& patch) {
   for (int n = 2; is_taken(); ++n) patch.name = name + "_" + std::to_string(n);
 }
 
-/// Moves open-boundary vertices exactly into the planes; a vertex on two planes is moved into both.
+/// Moves open-boundary vertices exactly into the planes. A vertex on two planes is moved into both.
 void snap_rims(const Constraints& rims, std::span<const EndPlane> ends, TriMesh& mesh) {
   for (const VertexId v : rims.vertex.ids())
     for (const std::int32_t k : rims.vertex[v].on)
@@ -312,14 +313,14 @@ void require_fluid(const FarfieldOptions& farfield, bool is_enclosed) {
                  .hint = "give a farfield; if the surface is to enclose the fluid, its normals must point inwards"});
 }
 
-/// Returns the patch of a box's side: from the rules, otherwise farfield.
+/// Returns the patch of a side of the box: from the rules, otherwise a farfield patch.
 Patch patch_of_side(std::span<const SideRule> rules, const std::string& side) {
   const auto rule = std::ranges::find(rules, side, &SideRule::side);
   if (rule == rules.end() || (!rule->has_kind && rule->name.empty())) return {"farfield", PatchKind::farfield};
   return {rule->name.empty() ? std::string(to_string(rule->kind)) : rule->name, rule->kind};
 }
 
-/// Adds a lid to an open sheet, and sides between its open boundary and the lid.
+/// Adds a lid above an open sheet, and sides between the open boundary of the sheet and the lid.
 TriMesh complete_over_floor(const TriMesh& surface, const Topology& topology, const FarfieldOptions& options, const RunContext& context,
                             std::vector<AddedPlane>* planes) {
   TriMesh mesh = surface;

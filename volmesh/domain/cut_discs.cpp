@@ -1,4 +1,5 @@
-// Steps for each disc: find_active (triangles that the plane goes through between the radii), snap vertices near the plane, split, find_outline, find_rims.
+// Steps for each disc: find_active finds the triangles through which the plane passes between the radii; vertices near the plane are moved into it (snap);
+// triangles are split; find_outline; find_rims.
 #include "volmesh/domain/cut_discs.h"
 
 #include <algorithm>
@@ -17,11 +18,12 @@
 namespace sterna::volmesh {
 namespace {
 
-constexpr double k_snap_share = 0.3;         ///< share of an edge: cut nearer to its end, the end moves; triangles keep about a third of their height
-constexpr double k_on_plane = 1e-12;         ///< tolerance for vertices in the plane, as a share of the largest coordinate and the radius (rounding)
-constexpr double k_least_turn_cosine = 0.8;  ///< least cosine between the normals of a triangle before and after one of its vertices moves
-constexpr double k_least_area_share = 0.2;   ///< least share of its area that a triangle keeps when a vertex moves
-const double k_feature_cosine = std::cos(30.0 * std::numbers::pi / 180.0);  ///< vertices on edges that turn by more move only along these edges
+constexpr double k_snap_share = 0.3;  ///< fraction of an edge: if the plane cuts the edge nearer to an end than this, that end moves into the plane; triangles
+                                      ///< keep about a third of their height
+constexpr double k_on_plane = 1e-12;  ///< tolerance for vertices in the plane because of rounding, as a fraction of the largest coordinate and the radius
+constexpr double k_least_turn_cosine = 0.8;  ///< smallest cosine between the normals of a triangle before and after one of its vertices moves
+constexpr double k_least_area_share = 0.2;   ///< smallest fraction of its area that a triangle keeps when a vertex moves
+const double k_feature_cosine = std::cos(30.0 * std::numbers::pi / 180.0);  ///< vertices on edges that turn by more than this move only along these edges
 
 class Cutter {
  public:
@@ -29,7 +31,7 @@ class Cutter {
          const RunContext& context)
       : mesh_(mesh), disc_(disc), plane_(disc), has_layer_(has_layer), taken_by_(taken_by), context_(context) {}
 
-  /// Returns true if the disc meets walls with layers, and nothing else.
+  /// Returns true if the disc meets walls with layers and no other patch.
   bool find_active() {
     Box box;
     for (const Point& p : mesh_.points) box.add(p);
@@ -99,7 +101,7 @@ class Cutter {
     for (const Candidate& candidate : candidates) snap(topology, candidate.vertex);
   }
 
-  /// Splits triangles; the source triangle of each new triangle is appended to `made`.
+  /// Splits triangles. The source triangle of each new triangle is appended to `made`.
   Column<TriangleId, TriangleId> split() {
     Column<TriangleId, TriangleVertices> triangles;
     Column<TriangleId, PatchId> patches;
@@ -111,14 +113,14 @@ class Cutter {
     };
     for (const TriangleId t : mesh_.triangles.ids()) {
       const TriangleVertices v = mesh_.triangles[t];
-      std::array<bool, 3> is_cut{};  // cut state of the edge from corner k
+      std::array<bool, 3> is_cut{};  // entry k: the plane cuts the edge from corner k
       int n_cut = 0;
       for (std::size_t k = 0; is_active_[t] && k < 3; ++k) n_cut += is_cut[k] = crosses(v[k], v[(k + 1) % 3]);
       if (n_cut == 0) {
         add(t, v[0], v[1], v[2]);
         continue;
       }
-      // Rotate the corners so that the only cut edge is opposite to the first corner, or so that the two cut edges meet there.
+      // The corners are rotated so that a single cut edge is opposite to the first corner, or so that two cut edges meet at the first corner.
       std::size_t first = 0;
       while (n_cut == 1 ? !is_cut[(first + 1) % 3] : is_cut[(first + 1) % 3]) ++first;
       const VertexId a = v[first], b = v[(first + 1) % 3], c = v[(first + 2) % 3];
@@ -210,14 +212,14 @@ class Cutter {
   }
   const std::string& name(TriangleId t) const { return mesh_.patches[mesh_.triangle_patch[t]].name; }
   bool crosses(VertexId a, VertexId b) const { return (height_[a] < 0.0 && height_[b] > 0.0) || (height_[a] > 0.0 && height_[b] < 0.0); }
-  /// Fraction of the way from a to b where the plane cuts.
+  /// Returns the fraction of the way from a to b at which the plane cuts.
   double share_of(VertexId a, VertexId b) const { return height_[a] / (height_[a] - height_[b]); }
   Point cut_place(VertexId a, VertexId b) const {
     if (b < a) std::swap(a, b);
     return plane_.onto(mesh_.points[a] + share_of(a, b) * (mesh_.points[b] - mesh_.points[a]));
   }
 
-  /// Section of the triangle with the plane; nothing if it is a point.
+  /// Returns the section of the triangle with the plane; nothing if the section is a point.
   std::optional<std::array<Point, 2>> segment(TriangleId t) const {
     const TriangleVertices& v = mesh_.triangles[t];
     std::array<Point, 6> ends;
@@ -266,12 +268,12 @@ class Cutter {
     return area_vector(a, b, c);
   }
 
-  /// Moves a vertex into the plane along its shortest cut edge, if an edge is still cut near the vertex and nothing forbids the move.
+  /// Moves a vertex into the plane along its shortest cut edge, if the plane still cuts an edge near the vertex and nothing prevents the move.
   void snap(const Topology& topology, VertexId v) {
     if (height_[v] == 0.0 || taken_by_[v] != 0) return;
     std::size_t n_features = 0;
     for (const HalfedgeId h : topology.outgoing(v)) n_features += is_feature(topology, h);
-    if (n_features == 1 || n_features > 2) return;  // a corner
+    if (n_features == 1 || n_features > 2) return;  // the vertex is a corner
     HalfedgeId best;
     double least = 0.0;
     for (const HalfedgeId h : topology.outgoing(v)) {
@@ -299,12 +301,12 @@ class Cutter {
       height_[v] = old_height;
       return;
     }
-    // The plane now passes through triangles that it previously missed and that share only this vertex.
+    // The plane now passes through all triangles at this vertex, including those that it did not cut before.
     for (const HalfedgeId h : topology.outgoing(v)) is_active_[triangle_of(h)] = 1;
   }
 
-  /// Finds which boundary circles of the disc lie in the fluid: the winding number of all boundary sections with the plane is one there (the outermost +1,
-  /// bodies -1).
+  /// Finds which boundary circles of the disc lie in the fluid. There the winding number of all sections of the boundary with the plane is one (the outermost
+  /// part contributes +1, bodies -1).
   void find_rims(CutDisc& cut) const {
     const Vec3 n = plane_.normal();
     const Vec3 m{std::abs(n.x), std::abs(n.y), std::abs(n.z)};
@@ -339,11 +341,11 @@ class Cutter {
   const Column<PatchId, std::uint8_t>& has_layer_;
   const Column<VertexId, std::uint32_t>& taken_by_;
   const RunContext& context_;
-  Column<VertexId, double> height_;             ///< above the plane; exactly 0: in it
+  Column<VertexId, double> height_;             ///< height above the plane; exactly 0 for vertices in the plane
   Column<TriangleId, std::uint8_t> is_active_;  ///< the disc's plane cuts the triangle between the radii
   struct CutPoint {
     VertexId vertex;
-    int n_uses = 0;  ///< number of triangles; two are adjacent to an edge
+    int n_uses = 0;  ///< number of triangles at the edge; two are normal
   };
   std::map<std::array<VertexId, 2>, CutPoint> cut_points_;
 };

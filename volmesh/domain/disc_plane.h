@@ -8,7 +8,7 @@
 
 namespace sterna::volmesh {
 
-/// Plane of a disc. If it is normal to a coordinate axis, its points have the centre's coordinate bit-exactly.
+/// Plane of a disc. If the plane is normal to a coordinate axis, its points have bit-exactly the coordinate of the centre on that axis.
 class DiscPlane {
  public:
   /// \pre the disc's numbers are valid (require_sane)
@@ -20,7 +20,7 @@ class DiscPlane {
   const Point& center() const { return center_; }
   double inner() const { return inner_; }
   double outer() const { return outer_; }
-  /// m, positive downstream
+  /// Returns the distance from the plane in metres, positive downstream.
   double height(const Point& p) const {
     if (axis_ < 0) return dot(p - center_, normal_);
     const auto k = static_cast<std::size_t>(axis_);
@@ -31,14 +31,14 @@ class DiscPlane {
     p[static_cast<std::size_t>(axis_)] = center_[static_cast<std::size_t>(axis_)];
     return p;
   }
-  /// m, from the axis
+  /// Returns the distance from the axis in metres.
   double radius(const Point& p) const { return norm(onto(p) - center_); }
 
  private:
   Point center_;
   Vec3 normal_;
   double inner_, outer_;
-  int axis_ = -1;  ///< coordinate axis normal to the plane, if there is one
+  int axis_ = -1;  ///< number of the coordinate axis normal to the plane; -1: none
 };
 
 }  // namespace sterna::volmesh

@@ -1,5 +1,5 @@
-// Discs consist of rings of vertices. Ring spacing equals the local edge length, and each ring is turned by half an edge against the next. Triangles between
-// two rings advance on the ring whose next vertex comes first by its angle.
+// Discs consist of rings of vertices. The spacing of rings equals the local edge length, and each ring is turned by half an edge against the next ring. The
+// triangles between two rings are made one after another, on the ring whose next vertex comes first by its angle.
 
 #include "volmesh/domain/disc_sheets.h"
 
@@ -19,11 +19,11 @@
 namespace sterna::volmesh {
 namespace {
 
-constexpr double k_shortest_edge = 1e-4;  ///< share of the radius; more rings than that are an error
+constexpr double k_shortest_edge = 1e-4;  ///< fraction of the radius; shorter edges, which need more rings, are an error
 constexpr std::size_t k_most_rings = 2000;
 constexpr int k_least_on_ring = 6;
-constexpr int k_probes = 48;                       ///< points on a ring at which the distance from walls is sampled
-const double k_row_height = 0.5 * std::sqrt(3.0);  ///< height over edge of regular triangles
+constexpr int k_probes = 48;                       ///< number of points on a ring at which the distance from walls is sampled
+const double k_row_height = 0.5 * std::sqrt(3.0);  ///< ratio of height to edge of equilateral triangles
 
 ErrorInfo problem_with(const ActuatorDisc& disc, ErrorCode code, std::string problem, std::string hint = {}) {
   return {.code = code, .attempted = "making actuator disc \"" + disc.name + "\"", .problem = std::move(problem), .hint = std::move(hint)};
@@ -50,7 +50,7 @@ class Frame {
  public:
   explicit Frame(const ActuatorDisc& disc) : center_(disc.center) {
     const Vec3 n = normalized(disc.axis);
-    // The axis that is least along n gives the first direction.
+    // The coordinate axis with the smallest component of n gives the first direction.
     const Vec3 m{std::abs(n.x), std::abs(n.y), std::abs(n.z)};
     const Vec3 other = m.x <= m.y && m.x <= m.z ? Vec3{1, 0, 0} : m.y <= m.z ? Vec3{0, 1, 0} : Vec3{0, 0, 1};
     u_ = normalized(cross(n, other));
@@ -63,7 +63,7 @@ class Frame {
   Vec3 u_, v_;
 };
 
-/// Vertices of walls, with the geometric mean of the edges there.
+/// Returns the vertices of walls, each with the geometric mean of its edges as size.
 std::vector<SizeSite> sites_of(const TriMesh& walls) {
   Column<VertexId, double> sum(walls.n_vertices(), 0.0), count(walls.n_vertices(), 0.0);
   for (const TriangleVertices& v : walls.triangles)
@@ -79,7 +79,8 @@ std::vector<SizeSite> sites_of(const TriMesh& walls) {
 
 double longest_edge(const ActuatorDisc& disc) {
   const double longest = is_automatic(disc.edge) ? k_disc_edge * disc.radius : disc.edge;
-  return disc.inner_radius > 0.0 ? std::min(longest, disc.radius - disc.inner_radius) : longest;  // otherwise the polygons of a narrow ring would meet
+  // With longer edges the polygons of a narrow ring would cross each other.
+  return disc.inner_radius > 0.0 ? std::min(longest, disc.radius - disc.inner_radius) : longest;
 }
 
 std::uint32_t edges_on_ring(double radius, double edge) {
@@ -107,7 +108,7 @@ class RingSizes {
   std::uint32_t hint_ = 0;
 };
 
-/// Radii of the rings, from the outer circle inwards; 0 is a vertex in the centre.
+/// Returns the radii of the rings, from the outer circle inwards. A radius of 0 is a vertex in the centre.
 std::vector<double> ring_radii(const ActuatorDisc& disc, RingSizes& size) {
   std::vector<double> steps;
   double reached = disc.radius;
@@ -117,8 +118,8 @@ std::vector<double> ring_radii(const ActuatorDisc& disc, RingSizes& size) {
                                "raise the edge length of the disc, or move the disc away from finely meshed walls"));
     steps.push_back(k_row_height * size(reached));
   }
-  // The last step overshoots: it is kept if more than half of it is needed.
-  const std::size_t least = disc.inner_radius > 0.0 ? 2 : 1;  // one ring of vertices between two free boundary circles
+  // The last step overshoots the inner circle. It is kept if more than half of it is needed.
+  const std::size_t least = disc.inner_radius > 0.0 ? 2 : 1;  // at least one ring of vertices lies between two free boundary circles
   if (steps.size() > least && disc.inner_radius - reached > 0.5 * steps.back()) {
     reached += steps.back();
     steps.pop_back();
@@ -142,7 +143,7 @@ struct Ring {
   VertexId vertex(std::uint32_t i) const { return VertexId(first + i % n); }
 };
 
-/// Counter-clockwise triangles between two rings, seen along the frame's normal.
+/// Adds the triangles between two rings, counter-clockwise about the frame's normal.
 void zip(const Ring& outer, const Ring& inner, TriMesh& mesh) {
   if (inner.n == 1) {
     for (std::uint32_t i = 0; i < outer.n; ++i) mesh.triangles.push_back({outer.vertex(i), outer.vertex(i + 1), inner.vertex(0)});
@@ -183,7 +184,7 @@ TriMesh triangulate_disc(const ActuatorDisc& disc, const TriMesh& walls, double 
     if (k > 0) zip(rings.back(), ring, mesh);
     rings.push_back(ring);
   }
-  for (TriangleVertices& t : mesh.triangles) std::swap(t[1], t[2]);  // against the axis
+  for (TriangleVertices& t : mesh.triangles) std::swap(t[1], t[2]);  // normals then point against the axis
   mesh.triangle_patch.assign(mesh.n_triangles(), mesh.patches.push_back({disc.name, PatchKind::interface}));
   return mesh;
 }
@@ -239,7 +240,7 @@ void require_clear(const ActuatorDisc& disc, std::span<const Vec3> points, std::
 
 namespace {
 
-/// Runs require_clear() for a baffle and another mesh, each with its own indices.
+/// Runs require_clear() for a baffle and another mesh, which have separate indices.
 void require_sheet_clear(const ActuatorDisc& disc, const TriMesh& sheet, const TriMesh& others, const RunContext& context) {
   std::vector<Vec3> points(sheet.points.begin(), sheet.points.end());
   points.insert(points.end(), others.points.begin(), others.points.end());
@@ -264,7 +265,7 @@ void require_sheet_clear(const ActuatorDisc& disc, const TriMesh& sheet, const T
   require_clear(disc, points, triangles, n_own, patch_of, "", context);
 }
 
-/// Vertices on the border of the part of a mesh that consists of these triangles.
+/// Marks the vertices on the border of the part of a mesh that these triangles form.
 Column<VertexId, std::uint8_t> find_rim(const TriMesh& sheet, const std::vector<TriangleId>& triangles) {
   std::vector<std::array<std::uint32_t, 2>> edges;
   for (const TriangleId t : triangles)

@@ -1,6 +1,6 @@
-// Steps: require_closed; numbering of both parts; layer boundary (a walk around each boundary vertex through the patches without layers: one patch constrains
-// the vertex to a surface, two patches to their common line, more fix it); surfaces of the adjacent patches, plane if their vertices are; snapping; wall
-// vertices near a surface.
+// Steps: require_closed; numbering of both parts; layer boundary; surfaces of the adjacent patches; snapping; wall vertices near a surface. For the layer
+// boundary, a walk around each of its vertices passes through the patches without layers. One patch constrains the vertex to a surface, two patches to their
+// common line, and more patches fix it. The surface of an adjacent patch is a plane if its vertices lie in a plane.
 #include "volmesh/domain/domain_parts.h"
 
 #include <algorithm>
@@ -20,8 +20,8 @@
 namespace sterna::volmesh {
 namespace {
 
-constexpr double k_chain_sine = 1e-3;      ///< for planes at a smaller angle, the line is taken along their common edge
-constexpr double k_forward_cosine = 0.02;  ///< least cosine between the wall's normal and a line along which a layer grows
+constexpr double k_chain_sine = 1e-3;      ///< sine of the angle between two planes: for smaller angles, the line is taken along their common edge
+constexpr double k_forward_cosine = 0.02;  ///< smallest cosine between the wall's normal and a line along which a layer grows
 
 ErrorInfo error(ErrorCode code, std::string problem, std::string hint) {
   return {.code = code, .attempted = "volume_mesh", .problem = std::move(problem), .hint = std::move(hint)};
@@ -44,10 +44,10 @@ void require_closed(const TriMesh& surface, const Topology& topology) {
   throw Error(std::move(info));
 }
 
-/// One of the two parts: selected triangles, with their vertices and patches renumbered in the order of the surface.
+/// One of the two parts: the selected triangles, with their vertices and patches renumbered in the order of the surface.
 struct Part {
   TriMesh mesh;
-  Column<VertexId, VertexId> surface2part;  ///< invalid if the part has no such vertex
+  Column<VertexId, VertexId> surface2part;  ///< number of each vertex in the part; invalid if the part does not contain it
   Column<PatchId, PatchId> patch2part;
   Column<TriangleId, TriangleId> part2surface;
 };
@@ -79,10 +79,11 @@ Part part_of(const TriMesh& surface, const Chosen& is_chosen) {
   return part;
 }
 
-/// Walk around a layer boundary vertex, from its outgoing border half-edge to the incoming one: half-edges from the vertex at which the patch beyond changes.
+/// Result of the walk around a layer boundary vertex, from its outgoing border half-edge to the incoming one: the patches beyond the border, and the half-edges
+/// from the vertex at which the patch changes.
 struct RimFan {
   std::vector<PatchId> patches;     ///< patches of the surface, in the order of the walk
-  std::vector<HalfedgeId> changes;  ///< half-edges of the surface, starting at the vertex; one less than patches
+  std::vector<HalfedgeId> changes;  ///< half-edges of the surface that start at the vertex; one less than patches
 };
 
 class DomainSplitter {
@@ -108,8 +109,8 @@ class DomainSplitter {
  private:
   bool is_layered(TriangleId t) const { return has_layer_[surface_.triangle_patch[t]] != 0; }
 
-  /// Collects all closed parts except the one that encloses the fluid: the inward-oriented part with the largest volume. Other inward-oriented parts are
-  /// cavities.
+  /// Collects all closed parts except the one that encloses the fluid, which is the inward-oriented part with the largest volume. Other inward-oriented parts
+  /// are cavities.
   void find_parts() {
     const Components parts = connected_components(surface_, topology_);
     std::vector<CompensatedSum> sums(parts.count);
@@ -154,7 +155,7 @@ class DomainSplitter {
         if (outer_.mesh.triangle_patch[t] == end.patch) domain_.links.surface[t] = end.surface;
   }
 
-  /// Numbers of periodic sides and of their partners in both parts. \throws if a wall with layers ends on only one of two partner sides
+  /// Finds the numbers of periodic sides and of partner vertices in both parts. \throws if a wall with layers ends on only one of two partner sides
   void keep_periodic() {
     ErrorInfo info = error(ErrorCode::bad_argument, "",
                            "the same walls must end at the same locations of both periodic sides: give the patches there the same kind and layers");
@@ -202,9 +203,10 @@ class DomainSplitter {
       }
     }
     if (pinched.empty()) return;
-    ErrorInfo info = error(
-        ErrorCode::non_manifold_surface, "walls with layers touch in " + std::to_string(pinched.size()) + " single points, between patches without layers",
-        "give layers to one of the patches around this location, or remove the layers of the walls there (patches = { name = { layers = 0 } })");
+    ErrorInfo info =
+        error(ErrorCode::non_manifold_surface,
+              "at " + std::to_string(pinched.size()) + " points walls with layers meet only in that point, with patches without layers between them",
+              "give layers to one of the patches around this location, or remove the layers of the walls there (patches = { name = { layers = 0 } })");
     for (std::size_t i = 0; i < std::min(pinched.size(), k_max_places); ++i)
       info.places.push_back({surface_.points[pinched[i]], "vertex " + std::to_string(pinched[i].value())});
     throw Error(std::move(info));
@@ -212,7 +214,7 @@ class DomainSplitter {
 
   RimFan fan_beyond(HalfedgeId rim) const {
     RimFan fan;
-    // The twin arrives at the vertex; its successor leaves the vertex, one triangle on.
+    // The twin ends at the vertex. Its successor starts at the vertex, one triangle farther.
     for (HalfedgeId h = topology_.twin(rim);; h = topology_.twin(next(h))) {
       const TriangleId t = triangle_of(h);
       if (is_layered(t)) return fan;
@@ -266,7 +268,7 @@ class DomainSplitter {
     mark_near();
   }
 
-  /// Layer boundary vertices at which the wall turns away from the patch beyond: there is fluid on both sides of the layer's side face.
+  /// Finds the layer boundary vertices at which the wall turns away from the patch beyond, so that there is fluid on both sides of the side face of the layer.
   Column<VertexId, std::uint8_t> convex_rim() const {
     Column<VertexId, std::uint8_t> is_convex(wall_.mesh.n_vertices(), 0);
     for (const RimEdge& edge : domain_.rim) {
@@ -318,7 +320,7 @@ class DomainSplitter {
     }
   }
 
-  /// Moves vertices on several planes until they lie on all of them; axis-parallel planes need one step.
+  /// Moves vertices on several planes until they lie on all of them. For axis-parallel planes one step is sufficient.
   void snap(const std::vector<VertexId>& vertices, const ConstraintPlane& plane) {
     for (const VertexId v : vertices) outer_.mesh.points[v] = plane.closest(outer_.mesh.points[v]);
     for (const VertexId v : surface_.points.ids()) {
@@ -353,7 +355,7 @@ class DomainSplitter {
     return constraint;
   }
 
-  /// Half-edges at v between two different patches without layers, at least one of them `patch`.
+  /// Returns the half-edges at v between two different patches without layers, of which at least one is `patch`.
   std::vector<HalfedgeId> changes_at(VertexId v) const {
     std::vector<HalfedgeId> found;
     for (const HalfedgeId h : topology_.outgoing(v)) {
@@ -383,12 +385,12 @@ class DomainSplitter {
       h = on;
       if (topology_.from(h) == start) break;
     }
-    // A chain between two growth lines is the same from both ends: only the chain from the lower vertex is stored.
+    // A chain between two growth lines is the same from both ends. Only the chain from the lower vertex is stored.
     if (chain.ends_on_wall && domain_.constraints.vertex[wall_.surface2part[topology_.to(h)]].freedom == Freedom::line && topology_.to(h) < start) return;
     domain_.chains.push_back(std::move(chain));
   }
 
-  /// Marks vertices from which a layer can reach an adjacent patch along the wall; a plane of symmetry affects all vertices.
+  /// Marks vertices from which a layer can reach an adjacent patch along the wall. A plane of symmetry affects all vertices.
   void mark_near() {
     domain_.constraints.near.assign(wall_.mesh.n_vertices(), 0);
     const WallReach reach(wall_.mesh);

@@ -1,4 +1,5 @@
-// Splits the fluid's boundary into walls that carry layers and the rest. Where a wall ends on a patch without layers, that patch constrains the layer boundary.
+// Splits the boundary of the fluid into walls that carry layers and the other patches. Where a wall ends on a patch without layers, that patch constrains the
+// boundary of the layer.
 #pragma once
 
 #include <array>
@@ -21,12 +22,12 @@ namespace sterna::volmesh {
 
 /// An adjacent patch: a patch without layers on which layers end. It is re-meshed around the layer's footprint (rims/close_ends.h).
 struct EndPatch {
-  PatchId patch;                  ///< index in Domain::outer
-  std::int32_t surface = -1;      ///< index in Domain::constraints.surfaces
+  PatchId patch;                  ///< patch of Domain::outer
+  std::int32_t surface = -1;      ///< number of its surface in Domain::constraints.surfaces
   double max_edge = k_automatic;  ///< m, longest edge of its triangles
 };
 
-/// An edge of the wall's border and the patch beyond it.
+/// An edge of the wall's border, and the patch beyond the edge.
 struct RimEdge {
   HalfedgeId halfedge;  ///< half-edge of Domain::wall
   PatchId patch;        ///< patch of Domain::outer
@@ -35,68 +36,71 @@ struct RimEdge {
 /// The polygon in which two adjacent patches meet. It starts at a wall vertex whose growth line runs along it.
 struct EndChain {
   std::vector<VertexId> outer;  ///< vertices of Domain::outer, at least two; the first is on the wall
-  bool ends_on_wall = false;    ///< the last vertex also has a growth line along this chain
-  PatchId left, right;          ///< patches of Domain::outer, seen along the chain from the fluid
+  bool ends_on_wall = false;    ///< true if the last vertex also has a growth line along this chain
+  PatchId left, right;          ///< patches of Domain::outer to the left and right of the chain, as seen from the fluid
 };
 
 /// Two patches of Domain::outer; the second is a translated copy of the first.
 struct PeriodicEnds {
   PatchId first, second;
   Vec3 translation;                               ///< m
-  std::vector<std::array<VertexId, 2>> vertices;  ///< partners, vertices of Domain::outer
+  std::vector<std::array<VertexId, 2>> vertices;  ///< pairs of partner vertices of Domain::outer
 };
 
-/// An actuator disc that ends on walls with layers (disc cut). The wall stays closed there; its columns are separated once the layer exists (rims/slits.h).
+/// An actuator disc that ends on walls with layers (disc cut). The wall itself is not cut there; its columns are separated once the layer exists
+/// (rims/slits.h).
 struct DiscSlit {
-  std::size_t disc = 0;                            ///< index in MeshCase::discs
-  PatchId patch, back;                             ///< patches of Domain::outer: the upstream and the downstream side
-  std::vector<std::array<HalfedgeId, 2>> outline;  ///< edges of Domain::wall in the disc's plane: the half-edge upstream, and its twin downstream
-  bool has_outer_rim = false;                      ///< boundary circles of the disc that lie free in the fluid
+  std::size_t disc = 0;                            ///< number of the disc in MeshCase::discs
+  PatchId patch, back;                             ///< patches of Domain::outer: the upstream side and the downstream side
+  std::vector<std::array<HalfedgeId, 2>> outline;  ///< edges of Domain::wall in the plane of the disc: the upstream half-edge, and its downstream twin
+  bool has_outer_rim = false;                      ///< boundary circles of the disc that lie in the fluid
   bool has_inner_rim = false;
-  std::vector<TriangleId> behind;  ///< triangles of the wall with outline vertices that lie downstream of the disc, ascending
-  std::int32_t surface = -1;       ///< index in Domain::constraints.surfaces of the upstream side; the downstream side follows
+  std::vector<TriangleId> behind;  ///< triangles of the wall that contain outline vertices and lie downstream of the disc, ascending
+  std::int32_t surface = -1;       ///< number of the surface of the upstream side in Domain::constraints.surfaces; the downstream side follows
 };
 
 struct Domain {
-  TriMesh wall;             ///< triangles of patches with layers, in the order of the surface; open where the wall ends on other patches
+  TriMesh wall;             ///< triangles of patches with layers, in the order of the surface; the mesh is open where the wall ends on other patches
   Constraints constraints;  ///< constraints of the wall's boundary
-  TriMesh outer;     ///< all other triangles, in the order of the surface, then one side of actuator discs; vertices are separate from the wall's, also on the
-                     ///< layer boundary
-  OuterLinks links;  ///< empty without layer boundaries
-  std::vector<EndPatch> ends;  ///< ascending by patch
-  std::vector<RimEdge> rim;    ///< ascending by half-edge
+  TriMesh outer;  ///< all other triangles, in the order of the surface, then one side of each actuator disc; its vertices are separate from those of the wall,
+                  ///< also on the layer boundary
+  OuterLinks links;            ///< empty if there are no layer boundaries
+  std::vector<EndPatch> ends;  ///< sorted by ascending patch
+  std::vector<RimEdge> rim;    ///< sorted by ascending half-edge
   std::vector<EndChain> chains;
   std::vector<PeriodicEnds> periodic;
-  std::vector<std::array<VertexId, 2>> partners;  ///< vertices of the wall where it ends on periodic sides: partners get the same growth
+  std::vector<std::array<VertexId, 2>> partners;  ///< pairs of wall vertices where the wall ends on periodic sides; partners get the same growth
   Column<TriangleId, TriangleId> wall2surface;
-  Column<TriangleId, CornerWeights> wall_weights;  ///< weights in wall2surface; empty if sliver splitting has not changed the wall, and if discs have cut it
+  /// Weights in wall2surface; empty if sliver splitting has not changed the wall, and also if discs have cut it.
+  Column<TriangleId, CornerWeights> wall_weights;
   NeedleReport needles;
   OpenedRidges ridges;   ///< opened ridges of the wall
-  DoubledSheets sheets;  ///< doubled sheets of the wall; never together with ridges
+  DoubledSheets sheets;  ///< doubled sheets of the wall; a wall never has both these and opened ridges
   std::vector<DiscSlit> slits;
   std::vector<VertexId>
-      slit_vertices;  ///< outline vertices of the wall, all outlines, ascending; the i-th also has growth line n_vertices() + i, downstream of its disc
-  std::vector<std::size_t> vertex2slit;  ///< for each of these vertices: the disc cut
-  /// Fluid that is not connected to the main fluid: the inside of a closed part with normals inwards, except the part that encloses the rest.
+      slit_vertices;  ///< vertices of all outlines on the wall, ascending; vertex i also has growth line n_vertices() + i, downstream of its disc
+  std::vector<std::size_t> vertex2slit;  ///< number of the disc cut of each of these vertices
+  /// Fluid that is not connected to the main fluid. It is the inside of a closed part whose normals point inwards (except the part that encloses the main
+  /// fluid).
   struct Cavity {
-    double volume = 0.0;               ///< m^3, including the volume of its contents
-    Box box;                           ///< bounding box of the part
-    std::vector<std::string> patches;  ///< patches of the part
+    double volume = 0.0;               ///< m^3, including the volume of parts inside it
+    Box box;                           ///< bounding box of the cavity
+    std::vector<std::string> patches;  ///< names of the patches around it
   };
   std::vector<Cavity> cavities;
-  TriMesh bodies;  ///< closed parts of the surface except the one that encloses the fluid: cavities are searched here
-  /// Returns true if wall vertices have several growth lines, so that the layer does not yet correspond to the given wall.
+  TriMesh bodies;  ///< closed parts of the surface except the one that encloses the fluid; cavities are searched in these parts
+  /// Returns true if wall vertices have several growth lines. The layer then does not yet correspond to the given wall.
   bool is_opened() const { return !ridges.is_empty() || !sheets.is_empty(); }
   /// Returns true if the outer boundary is re-meshed around the layer.
   bool has_rims() const { return !rim.empty() || !slits.empty(); }
 };
 
-/// Splits a closed surface. Vertices of flat adjacent patches are moved into their plane, by at most 1e-6 of their distance to the wall's middle plus body
-/// length; symmetry patches on which layers end must be flat. \p has_layer: for each patch. \p periodic: matching sides of the surface; layer boundary vertices
-/// at partners have the same freedom.
-/// \pre normals into the fluid. Without layer boundaries, wall and outer are the surface's triangles, unchanged.
+/// Splits a closed surface. Vertices of flat adjacent patches are moved into their plane, by at most 1e-6 of the sum of body length and distance to the wall's
+/// middle. Symmetry patches on which layers end must be flat. \p has_layer flag of each patch. \p periodic matching sides of the surface; partner vertices on
+/// the layer boundary get the same freedom
+/// \pre normals point into the fluid. \post without layer boundaries, wall and outer consist of the surface's triangles, unchanged
 /// \throws Error(open_surface) with locations for open edges; Error(non_manifold_surface) if walls with layers touch in single points; Error(bad_argument) for
-/// a symmetry patch that is not plane, with its farthest vertex, and if walls end on only one of two periodic sides
+/// a symmetry patch that is not plane (with its farthest vertex), and if walls end on only one of two periodic sides
 Domain split_domain(const TriMesh& surface, const Column<PatchId, std::uint8_t>& has_layer, const RunContext& context,
                     std::span<const PeriodicPatches> periodic = {});
 

@@ -1,7 +1,7 @@
-// 1. rim_edges: assigns each edge with one triangle to a plane;
-// 2. join_on_lines: where two planes meet, the fluid's part of their line runs between open-boundary vertices;
-// 3. triangulate: the plane's part inside an odd number of open-boundary loops, without new vertices;
-// 4. edges that are still open mark the location of an error.
+// 1. rim_edges: assigns each edge with only one triangle to a plane.
+// 2. join_on_lines: where two planes meet, adds the part of their line that bounds the fluid, between open-boundary vertices.
+// 3. triangulate: fills the part of each plane that is inside an odd number of open-boundary loops, without new vertices.
+// 4. Edges that are still open mark the location of an error.
 #include "volmesh/domain/end_planes.h"
 
 #include <algorithm>
@@ -15,11 +15,11 @@
 namespace sterna::volmesh {
 namespace {
 
-constexpr double k_line_growth = 1.3;  ///< growth ratio of the edges on a line between two planes, from either end
+constexpr double k_line_growth = 1.3;  ///< growth ratio of the edges on the line of two planes, from both ends
 constexpr std::size_t k_most_line_vertices = 100'000;
 constexpr const char* k_planes_attempt = "filling the planes at which the surface ends";
 
-using Edge = std::array<VertexId, 2>;  ///< directed
+using Edge = std::array<VertexId, 2>;  ///< directed edge
 
 bool is_in(const Point& p, const EndPlane& end) { return p[end.axis] == end.at; }
 
@@ -28,7 +28,7 @@ std::string name_of(const EndPlane& end) {
   return text + " = " + std::to_string(end.at);
 }
 
-/// Open-boundary edges of each plane. An edge in two planes belongs to the plane that its triangle rises from.
+/// Returns the open-boundary edges of each plane. An edge that lies in two planes belongs to the plane from which its triangle rises.
 std::vector<std::vector<Edge>> rim_edges(const TriMesh& mesh, std::span<const EndPlane> ends, const RunContext& context) {
   const Topology topology(mesh, context);
   std::vector<std::vector<Edge>> rims(ends.size());
@@ -53,7 +53,7 @@ std::vector<std::vector<Edge>> rim_edges(const TriMesh& mesh, std::span<const En
   throw Error(std::move(info));
 }
 
-/// Mean length of the open-boundary edges at a vertex.
+/// Returns the mean length of the open-boundary edges at a vertex.
 double length_at(const TriMesh& mesh, const std::vector<std::vector<Edge>>& rims, VertexId v) {
   double sum = 0.0;
   int n = 0;
@@ -66,7 +66,7 @@ double length_at(const TriMesh& mesh, const std::vector<std::vector<Edge>>& rims
   return n > 0 ? sum / n : 0.0;
 }
 
-/// Parameters in (0, 1) of a line of length 1 whose pieces grow from `first` at its start and `last` at its end, up to `most`.
+/// Returns the parameters in (0, 1) that divide a line of length 1. The pieces grow from `first` at its start and from `last` at its end, up to `most`.
 std::vector<double> graded(double first, double last, double most) {
   std::vector<double> lower, upper;
   double a = 0.0, b = 1.0, step_a = first, step_b = last;
@@ -79,12 +79,13 @@ std::vector<double> graded(double first, double last, double most) {
       step_b = std::max(step_b, std::min(step_b * k_line_growth, most));
     }
   }
-  // The remaining piece in between is shorter than both steps: without the last point the gap would be up to their sum.
+  // The remaining piece between both halves is shorter than both steps. If the last point were omitted, the gap would be at most as long as the sum of both
+  // steps.
   lower.insert(lower.end(), upper.rbegin(), upper.rend());
   return lower;
 }
 
-/// Divides the edges along the line of two planes and adds them to the open boundaries of both.
+/// Divides the line of two planes into edges, and adds them to the open boundaries of both planes.
 void join_on_line(TriMesh& mesh, std::span<const EndPlane> ends, std::span<const double> edges, std::size_t k, std::size_t l,
                   std::vector<std::vector<Edge>>& rims, std::vector<std::vector<Edge>>& lines) {
   const std::size_t along = 3 - ends[k].axis - ends[l].axis;
@@ -161,7 +162,7 @@ void triangulate(TriMesh& mesh, const EndPlane& end, const std::vector<Edge>& ri
   const auto same = std::find(mesh.patches.begin(), mesh.patches.end(), patch);
   const PatchId id = same == mesh.patches.end() ? mesh.patches.push_back(patch) : PatchId(static_cast<std::uint64_t>(same - mesh.patches.begin()));
   for (const auto& t : triangles) {
-    // Counter-clockwise order in (u, v) has its normal along the axis.
+    // Triangles that are counter-clockwise in (u, v) have their normal along the axis.
     const bool is_turned = end.inward < 0.0;
     mesh.triangles.push_back({vertices[t[0]], vertices[t[is_turned ? 2 : 1]], vertices[t[is_turned ? 1 : 2]]});
     mesh.triangle_patch.push_back(id);
@@ -198,7 +199,7 @@ std::vector<EndPlane> end_planes_of(const Constraints& rims) {
 }
 
 std::vector<double> volumes_of(const TriMesh& mesh, const Components& components, std::span<const EndPlane> ends) {
-  // Planes across the axis add their area times the coordinate's difference from `origin`: zero for one of them.
+  // A plane across the axis contributes its area times the difference between its coordinate and `origin`. This is zero for one plane.
   std::size_t axis = 3;
   double origin = 0.0;
   for (std::size_t k = 0; k < 3 && axis == 3; ++k)

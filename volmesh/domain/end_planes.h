@@ -1,4 +1,4 @@
-// Private to volmesh/domain: planes in which bodies and their outer boundary end, as patches.
+// Private to volmesh/domain: closes the planes in which bodies and their outer boundary end by patches.
 #pragma once
 
 #include <span>
@@ -12,19 +12,19 @@
 
 namespace sterna::volmesh {
 
-/// Returns the planes of constraints_of_rims().
+/// Returns the planes found by constraints_of_rims().
 std::vector<EndPlane> end_planes_of(const Constraints& rims);
 
-/// Signed volume of each component, as the flux of a coordinate along itself, chosen so that the planes contribute nothing: positive for bodies with outward
-/// normals, also if they are open in the planes.
-/// \throws Error(open_surface) if there are two planes across each axis
+/// Returns the signed volume of each component, as the flux of one coordinate along its axis. The coordinate is chosen so that the planes contribute nothing.
+/// Volumes are positive for bodies with outward normals, also if the bodies are open in the planes.
+/// \throws Error(open_surface) if there are two planes across every axis
 std::vector<double> volumes_of(const TriMesh& mesh, const Components& components, std::span<const EndPlane> ends);
 
-/// Closes `mesh` by one patch per plane, between the open boundaries that lie in it; patches[i] belongs to ends[i]. Where two planes meet, the line between
-/// open boundaries is divided with lengths that grow from both ends, up to the lesser of the planes' `edges` (m; automatic: no limit), and both planes share
-/// its new vertices; they have no other new vertices. The result has long thin triangles, with normals into the fluid.
+/// Closes `mesh` by one patch for each plane, between the open boundaries in the plane. patches[i] belongs to ends[i]. Where two planes meet, the line between
+/// open boundaries is divided. The lengths of its edges grow from both ends, up to the smaller of the `edges` of both planes (m; automatic: no limit). Both
+/// planes share the new vertices on the line; there are no other new vertices. The result has long thin triangles, with normals into the fluid.
 /// \pre open-boundary vertices lie bit-exactly in their planes
-/// \throws Error(open_surface) with locations where open boundaries do not separate inside and outside, and where three planes meet
+/// \throws Error(open_surface) with locations where open boundaries do not separate inside from outside, and where three planes meet
 void fill_ends(TriMesh& mesh, std::span<const EndPlane> ends, std::span<const Patch> patches, std::span<const double> edges, const RunContext& context);
 
 }  // namespace sterna::volmesh

@@ -12,11 +12,11 @@
 namespace sterna::volmesh {
 namespace {
 
-constexpr double k_margin = 0.25;  ///< body lengths between wall and sphere: space for the layer and a few tetrahedra
+constexpr double k_margin = 0.25;  ///< body lengths: smallest distance between wall and sphere, enough for the layer and a few tetrahedra
 constexpr std::size_t k_most_triangles = 20'000'000;
 constexpr std::uint32_t k_not_made = 0xffffffff;
 
-/// The regular icosahedron with coordinates 0, +-1, +-golden ratio; faces counter-clockwise seen from outside.
+/// Regular icosahedron with the coordinates 0, +-1 and +-golden ratio. Faces are counter-clockwise as seen from outside.
 const double k_golden = (1.0 + std::sqrt(5.0)) / 2.0;
 const std::array<Vec3, 12> k_corners = {{{-1, k_golden, 0},
                                          {1, k_golden, 0},
@@ -33,10 +33,11 @@ const std::array<Vec3, 12> k_corners = {{{-1, k_golden, 0},
 constexpr std::array<std::array<std::uint32_t, 3>, 20> k_faces = {{{0, 11, 5},  {0, 5, 1},  {0, 1, 7},  {0, 7, 10}, {0, 10, 11}, {1, 5, 9}, {5, 11, 4},
                                                                    {11, 10, 2}, {10, 7, 6}, {7, 1, 8},  {3, 9, 4},  {3, 4, 2},   {3, 2, 6}, {3, 6, 8},
                                                                    {3, 8, 9},   {4, 9, 5},  {2, 4, 11}, {6, 2, 10}, {8, 6, 7},   {9, 8, 1}}};
-/// Edge of the icosahedron over its circumradius.
+/// Ratio of the edge of the icosahedron to its circumradius.
 const double k_edge_ratio = 2.0 / std::sqrt(1.0 + k_golden * k_golden);
 
-/// Unit sphere: every icosahedron face split into f^2 triangles (class I), points projected onto the sphere. Points on shared edges are made once.
+/// Unit sphere. Every face of an icosahedron is split into f^2 triangles (class I), and the points are projected onto the sphere. Points on shared edges are
+/// made once.
 class Subdivision {
  public:
   explicit Subdivision(std::uint32_t f) : f_(f) {
@@ -52,7 +53,7 @@ class Subdivision {
     points_.push_back(normalized(p));
     return static_cast<std::uint32_t>(points_.size() - 1);
   }
-  /// The point i steps from corner a towards corner b, 0 <= i <= f.
+  /// Returns the point that is i steps from corner a towards corner b, with 0 <= i <= f.
   std::uint32_t on_edge(std::uint32_t a, std::uint32_t b, std::uint32_t i) {
     if (i == 0) return a;
     if (i == f_) return b;
@@ -66,7 +67,7 @@ class Subdivision {
   }
   void split(const std::array<std::uint32_t, 3>& face) {
     const auto [a, b, c] = face;
-    // Row j: f - j + 1 points from edge a-c to edge b-c.
+    // Row j has f - j + 1 points, from edge a-c to edge b-c.
     std::vector<std::uint32_t> below, row;
     for (std::uint32_t j = 0; j <= f_; ++j) {
       row.clear();
@@ -104,7 +105,7 @@ std::uint32_t frequency(double radius, double edge) {
   return static_cast<std::uint32_t>(f);
 }
 
-/// Radius of the largest ball about the origin inside the polyhedron.
+/// Returns the radius of the largest ball around the origin inside the polyhedron.
 double inner_radius(const Subdivision& sphere) {
   double least = 1.0;
   for (const auto& t : sphere.triangles()) {
@@ -163,7 +164,8 @@ TriMesh farfield_sphere(const TriMesh& wall, const FarfieldOptions& options, con
   mesh.points.reserve(sphere.points().size());
   for (const Vec3& p : sphere.points()) mesh.points.push_back(center + radius * p);
   mesh.triangles.reserve(sphere.triangles().size());
-  for (const auto& t : sphere.triangles()) mesh.triangles.push_back({VertexId(t[0]), VertexId(t[2]), VertexId(t[1])});  // normals inwards
+  // The order of corners is reversed, so normals point inwards.
+  for (const auto& t : sphere.triangles()) mesh.triangles.push_back({VertexId(t[0]), VertexId(t[2]), VertexId(t[1])});
   mesh.triangle_patch.assign(mesh.triangles.size(), patch);
   return mesh;
 }

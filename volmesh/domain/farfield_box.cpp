@@ -1,5 +1,5 @@
-// A box whose sides have their own edge lengths: its twelve edges are divided once, by the finer of their two sides; each side is then filled between its four
-// edges.
+// A box whose sides have their own edge lengths. Each of its twelve edges is divided once, by the finer of its two sides. Each side is then filled between its
+// four edges.
 #include <algorithm>
 #include <array>
 #include <cmath>
@@ -102,7 +102,7 @@ class BoxMesh {
   void fill_side(std::size_t side, const RunContext& context) {
     const std::size_t k = side / 2, u = (k + 1) % 3, v = (k + 2) % 3;
     const std::size_t base = (side % 2) << k, at_u = base | (std::size_t{1} << u), at_v = base | (std::size_t{1} << v);
-    // Lower u edge, upper v edge, then back.
+    // The order is: lower u edge, upper v edge, then upper u edge and lower v edge backwards.
     const std::array<const std::vector<VertexId>*, 4> around = {&edges_[u][base], &edges_[v][at_u], &edges_[u][at_v], &edges_[v][base]};
     std::vector<VertexId> loop;
     for (std::size_t i = 0; i < 4; ++i)
@@ -135,7 +135,7 @@ class BoxMesh {
 
   const BoxSize& size_;
   TriMesh mesh_;
-  std::array<std::array<std::vector<VertexId>, 8>, 3> edges_;  ///< indexed by axis and lower corner
+  std::array<std::array<std::vector<VertexId>, 8>, 3> edges_;  ///< vertices of each edge, indexed by axis and lower corner
 };
 
 TriMesh mesh_of_box(const BoxSize& size, const RunContext& context) {

@@ -1,5 +1,5 @@
-// A circular cylinder: two rings of straight edges; the ends are filled as polygons; the side is unrolled to a rectangle between the rings and a seam, filled
-// and rolled up.
+// A circular cylinder. Its two rings consist of straight edges. The ends are filled as polygons. The side is unrolled to a rectangle between the rings and a
+// seam, filled, and rolled up.
 #include <algorithm>
 #include <array>
 #include <cmath>
@@ -20,10 +20,10 @@ constexpr double k_two_pi = 2.0 * std::numbers::pi;
 
 struct CylinderSize {
   Point from;
-  Vec3 axis, e1, e2;  ///< unit, right-handed
+  Vec3 axis, e1, e2;  ///< unit vectors, right-handed
   double length = 0.0, radius = 0.0;
   double start = 0.0, end = 0.0, side = 0.0;  ///< target edge lengths, m
-  int n_start = 0, n_end = 0;                 ///< number of ring edges, multiples of four: vertices in both planes through the axis
+  int n_start = 0, n_end = 0;                 ///< numbers of ring edges; multiples of four, so that there are vertices in both planes through the axis
 };
 
 int ring_pieces(double radius, double edge) { return 4 * std::max(2, pieces(k_two_pi * radius / 4.0, edge)); }
@@ -49,7 +49,7 @@ CylinderSize size_of_cylinder(const TriMesh& wall, const FarfieldOptions& option
                  .problem = "both ends of the cylinder are at " + format_point(to),
                  .hint = "give different farfield_from and farfield_to"});
   size.axis = (to - size.from) / size.length;
-  // Take the coordinate axis that cyclically follows the steepest: y for a cylinder along x.
+  // The coordinate axis that follows the steepest one cyclically is used: y for a cylinder along x.
   std::size_t steepest = 0;
   for (std::size_t k = 1; k < 3; ++k)
     if (std::abs(size.axis[k]) > std::abs(size.axis[steepest])) steepest = k;
@@ -126,7 +126,7 @@ class CylinderMesh {
       vertices.push_back(mesh_.points.push_back(size_.from + along * size_.axis + fill.points[i].x * size_.e1 + fill.points[i].y * size_.e2));
     add_patch(mesh_, name, fill.triangles, vertices, along > 0.0);
   }
-  /// Fills the unrolled side: x along the axis and y along the ring; the right-hand normal points to the axis.
+  /// Fills the unrolled side, with x along the axis and y along the ring. The right-hand normal points towards the axis.
   void fill_side(const std::vector<VertexId>& start, const std::vector<VertexId>& end, const RunContext& context) {
     const double width = k_two_pi * size_.radius;
     const int n_seam = pieces(size_.length, size_.side);

@@ -9,9 +9,10 @@
 namespace sterna::volmesh {
 namespace {
 
-constexpr double k_radius_share = 0.72;    ///< share of the target edge: larger circumcircles get a point; 0.577 is that of the equilateral triangle
-constexpr double k_border_share = 0.5;     ///< share of the target edge: no points nearer to the border
-constexpr double k_distance_share = 0.55;  ///< share of the target edge: no points nearer to another vertex
+/// Fraction of the target edge: triangles with a larger circumradius get a point (the circumradius of an equilateral triangle is 0.577).
+constexpr double k_radius_share = 0.72;
+constexpr double k_border_share = 0.5;     ///< fraction of the target edge: smallest distance of new points from the border
+constexpr double k_distance_share = 0.55;  ///< fraction of the target edge: smallest distance of new points from other vertices
 constexpr std::size_t k_most_points = 20'000'000;
 
 struct Circle {
@@ -26,7 +27,7 @@ Circle circumcircle(const Vec2& a, const Vec2& b, const Vec2& c) {
   return {{a.x + x, a.y + y}, std::hypot(x, y)};
 }
 
-/// Task of delaunay::refine: circumcentres of triangles that are too large.
+/// Task for delaunay::refine: adds the circumcentres of triangles that are too large.
 class SizeTask {
  public:
   explicit SizeTask(const std::function<LocalSize(const Vec2&)>& size) : size_(size) {}

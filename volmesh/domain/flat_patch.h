@@ -10,16 +10,16 @@
 
 namespace sterna::volmesh {
 
-/// The flat patch's plane: constant x, y or z if all its vertices are nearly in such a plane, otherwise through their middle.
+/// The plane of a flat patch. It is a plane of constant x, y or z if all vertices are nearly in such a plane, otherwise a plane through their middle.
 struct FlatFit {
   bool is_flat = false;
   Point point;
   Vec3 normal;
   VertexId farthest;      ///< vertex of the mesh with the largest distance
-  double distance = 0.0;  ///< m, of the farthest vertex
+  double distance = 0.0;  ///< m, distance of that vertex
 };
 
-/// The vertices of a patch, ascending. The mesh must outlive this object.
+/// The vertices of a patch in ascending order. The mesh must outlive this object.
 class PatchVertices {
  public:
   PatchVertices(const TriMesh& mesh, PatchId patch) : mesh_(mesh) {
@@ -34,7 +34,8 @@ class PatchVertices {
   }
   const std::vector<VertexId>& vertices() const { return vertices_; }
 
-  /// Fits a plane. tolerance_at(point), m: allowed distance of a vertex. Not flat if there are no triangles, or if their areas cancel out.
+  /// Fits a plane. \p tolerance_at returns the allowed distance of a vertex at a point, m. The patch is not flat if there are no triangles, or if their areas
+  /// cancel out.
   template <class Tolerance>
   FlatFit fit(const Tolerance& tolerance_at) const {
     FlatFit result;

@@ -36,7 +36,7 @@ std::vector<Rim> rims_of(const Topology& topology, const TriMesh& mesh) {
   return rims;
 }
 
-/// Coordinates of an open-boundary loop, ascending.
+/// Returns the coordinates of an open-boundary loop on one axis, ascending.
 std::vector<double> coordinates(const Rim& rim, const TriMesh& mesh, std::size_t axis) {
   std::vector<double> values;
   for (const VertexId v : rim) values.push_back(mesh.points[v][axis]);
@@ -57,7 +57,7 @@ double plane_through(const std::vector<double>& values) {
   return best;
 }
 
-/// Returns the axis along which the loop is narrowest, if the loop is nearly but not exactly flat.
+/// Returns the axis on which the loop is narrowest, if the loop is nearly but not exactly flat.
 std::optional<std::size_t> nearly_flat_axis(const Rim& rim, const TriMesh& mesh, double length) {
   std::size_t axis = 0;
   double least = 0.0;
@@ -86,7 +86,7 @@ bool turns_over(const std::vector<TriangleId>& triangles, const std::vector<Poin
   return false;
 }
 
-/// For each open-boundary loop, the triangles with a corner on it.
+/// Returns for each open-boundary loop the triangles with a corner on it.
 std::vector<std::vector<TriangleId>> triangles_beside(const std::vector<Rim>& rims, const TriMesh& mesh) {
   Column<VertexId, std::uint32_t> rim_of(mesh.n_vertices(), 0);
   std::vector<std::vector<TriangleId>> result(rims.size());

@@ -1,7 +1,7 @@
-// 1. require_sheet: which parts are open, and whether they match farfield_floor;
-// 2. up_of: the vertical axis, along the area vector of the sheet;
-// 3. box_above: sides and lid;
-// 4. snap_rim: open-boundary vertices into the sides.
+// 1. require_sheet: determines which parts are open, and checks that they match farfield_floor.
+// 2. up_of: determines the vertical axis from the area vector of the sheet.
+// 3. box_above: determines the sides and the lid.
+// 4. snap_rim: moves open-boundary vertices into the sides.
 #include "volmesh/domain/floor.h"
 
 #include <algorithm>
@@ -21,9 +21,9 @@ namespace sterna::volmesh {
 namespace {
 
 constexpr const char* k_floor_attempt = "making the box above the floor";
-constexpr double k_default_lid = 0.5;  ///< height of the lid above the highest point, share of the longest horizontal side
+constexpr double k_default_lid = 0.5;  ///< height of the lid above the highest point, as a fraction of the longest horizontal side
 
-/// Returns 1 for components that are open. \throws unless they hold the patches of farfield_floor, and no other part is open
+/// Returns 1 for components that are open. \throws unless these contain the patches of farfield_floor, and no other part is open
 std::vector<std::uint8_t> require_sheet(const TriMesh& mesh, const Topology& topology, const Components& components, const std::string& floor) {
   std::vector<std::uint8_t> is_open(components.count, 0), is_floor(components.count, 0);
   std::vector<TriangleId> open_at(components.count);
@@ -133,8 +133,8 @@ std::string side_name(const EndPlane& side) { return k_box_sides[2 * side.axis +
 
 double off(const Point& p, const EndPlane& side) { return std::abs(p[side.axis] - side.at); }
 
-/// Location of an open-boundary edge that lies in none of the sides: its end with the larger distance from its nearest side, or either end if each lies in
-/// another side.
+/// Returns the location of an open-boundary edge that lies in none of the sides: the end of the edge that is farther from its nearest side, or either end if
+/// each end lies in another side.
 ErrorPlace place_off(const TriMesh& mesh, const std::array<VertexId, 2>& edge, const std::array<EndPlane, 4>& sides) {
   const auto nearest = [&](const Point& p) { return *std::ranges::min_element(sides, {}, [&](const EndPlane& side) { return off(p, side); }); };
   Point worst = mesh.points[edge[0]];

@@ -1,5 +1,5 @@
-// Steps: find_edges, choose_vertices, walk_chains (which side of a vertex is which), make_fans, make_corners, close_gaps. Virtual triangles correspond to a
-// tiny rounding of the edge, so all later steps work as on any other wall.
+// Steps: find_edges, choose_vertices, walk_chains (finds which side of a vertex is left and which is right), make_fans, make_corners, close_gaps. Virtual
+// triangles are equivalent to a tiny rounding of the edge, so all later steps work as on any other wall.
 #include "volmesh/domain/open_ridges.h"
 
 #include <algorithm>
@@ -24,20 +24,22 @@
 namespace sterna::volmesh {
 namespace {
 
-constexpr double k_raise = 0.01;  ///< share of the first height: distance of growth line starts from their ridge base vertex, well within the 2 % of gate G11
-constexpr double k_least_raise = 1e-11;          ///< share of the largest coordinate: normals of virtual triangles then have five digits
-constexpr double k_longest_edge = 1e5;           ///< in first heights: beyond it, control volumes of multi-normal fans would not be closed to rounding
-constexpr double k_bend_cosine = 0.5;            ///< 60 degrees: chains end at larger bends
+/// Fraction of the first height: distance of the starts of growth lines from their ridge base vertex, well within the 2 % of gate G11.
+constexpr double k_raise = 0.01;
+/// Lower limit of that distance, as a fraction of the largest coordinate: normals of virtual triangles then have five digits.
+constexpr double k_least_raise = 1e-11;
+constexpr double k_longest_edge = 1e5;           ///< in first heights: on longer edges, control volumes of multi-normal fans would not be closed to rounding
+constexpr double k_bend_cosine = 0.5;            ///< 60 degrees: chains end at larger bends between edges
 constexpr double k_side_cosine = 0.5;            ///< 60 degrees: largest angle between the normal of a side and its facets
-constexpr double k_far_turn = 182.0 * k_degree;  ///< knife edges turn by 180 degrees up to rounding
+constexpr double k_far_turn = 182.0 * k_degree;  ///< 180 degrees and a margin for rounding: the turn of a knife edge
 constexpr double k_angle_slack = 1e-6;           ///< relative to fan_angle: rounding must not add a sector
-constexpr double k_clear_axis = 0.1;             ///< sine of the turn above which the two normals define its axis
+constexpr double k_clear_axis = 0.1;             ///< sine of the turn; above it the two normals define the axis of the turn
 
 /// A vertex inside a chain, or a vertex at which the chain continues in its mirror image.
 struct Inner {
-  HalfedgeId ahead, back;       ///< outgoing edges of the chain; one is invalid in a plane in which the wall ends
-  RidgeTurn turn;               ///< turn between the normals of both sides
-  std::array<Vec3, 2> normal;   ///< unit normals of the sides: left and right of the direction ahead
+  HalfedgeId ahead, back;       ///< outgoing edges of the chain, ahead and back; one is invalid in a plane in which the wall ends
+  RidgeTurn turn;               ///< turn from the normal of one side to that of the other
+  std::array<Vec3, 2> normal;   ///< unit normals of the sides to the left and right of the direction ahead
   std::vector<VertexId> lines;  ///< growth lines from left to right
 };
 
@@ -72,8 +74,8 @@ class RidgeOpener {
     const auto [a, b, c] = corners(wall_, t);
     return normalized(area_vector(a, b, c));
   }
-  /// Returns true if the wall ends there in one plane, on one patch: ridges continue up to the plane. (Periodic sides have two planes, and the ridge continues
-  /// at the other side.)
+  /// Returns true if the wall ends at v in one plane, on one patch. Ridges continue up to that plane. (At periodic sides there are two planes, and the ridge
+  /// continues at the other side.)
   bool is_in_plane(VertexId v) const {
     if (!patch_beyond_[v].is_valid() || domain_.constraints.vertex[v].freedom != Freedom::plane) return false;
     return !is_partner_[v] || partner_[v].is_valid();
@@ -92,13 +94,13 @@ class RidgeOpener {
       const double turn = std::atan2(dot(cross(own, other), normalized(along)), dot(own, other));
       is_chain_[h] = turn > options_.open_angle || (turn < 0.0 && turn + 2.0 * std::numbers::pi < k_far_turn) ? 1 : 0;
     }
-    for (std::size_t i = 0; i < topology_.n_halfedges(); ++i) {  // knife edges: both directions must agree
+    for (std::size_t i = 0; i < topology_.n_halfedges(); ++i) {  // for knife edges both directions must agree
       const HalfedgeId h(i);
       if (is_chain_[h] && !is_chain_[topology_.twin(h)]) is_chain_[h] = 0;
     }
   }
 
-  /// Triangles between two outgoing half-edges, counter-clockwise; an invalid half-edge stands for the border of the wall.
+  /// Returns the triangles between two outgoing half-edges, counter-clockwise. An invalid half-edge means the border of the wall.
   std::vector<TriangleId> sector(HalfedgeId from, HalfedgeId to) const {
     std::vector<TriangleId> triangles;
     if (from.is_valid())
@@ -112,10 +114,11 @@ class RidgeOpener {
   VertexId vertex_at(HalfedgeId h) const { return h.is_valid() ? topology_.to(h) : VertexId{}; }
   bool has_fan(VertexId v) const { return inner_[v] || corners_.contains(v); }
   bool has_fan_at(HalfedgeId h) const { return h.is_valid() && has_fan(topology_.to(h)); }
-  /// Returns true if a chain may end here. Multi-normal fans need an adjacent fan; the vertex after the last fan is the chain's end, which must be free.
+  /// Returns true if a chain may end here. A multi-normal fan needs an adjacent fan. The vertex after the last fan is the end of the chain, and it must be
+  /// free.
   bool can_end(HalfedgeId h) const { return !h.is_valid() || has_fan_at(h) || is_free(topology_.to(h)); }
 
-  /// Sum of the normals of the triangles on one side of a vertex, weighted by their angles there.
+  /// Returns the sum of the normals of the triangles on one side of a vertex, weighted by their angles at the vertex.
   Vec3 sum_of_normals(VertexId v, const std::vector<TriangleId>& side) const {
     Vec3 sum;
     for (const TriangleId t : side) {
@@ -130,14 +133,15 @@ class RidgeOpener {
     return std::ranges::all_of(side, [&](TriangleId t) { return dot(direction, normal(t)) > k_side_cosine; });
   }
 
-  /// Returns the normal of one side of a vertex; nothing if not all triangles of the side are well visible from it.
+  /// Returns the normal of one side of a vertex; nothing if some triangles of the side are not well visible from it.
   std::optional<Vec3> side_normal(VertexId v, const std::vector<TriangleId>& side) const {
     const Vec3 sum = sum_of_normals(v, side), mean = is_in_plane(v) ? constrained(domain_.constraints.vertex[v], sum) : normalized(sum);
     if (!sees(mean, side)) return {};
     return mean;
   }
 
-  /// Left and right normals of a vertex on a periodic side: from its triangles and those at its partner, bit-identical for both.
+  /// Returns the left and right normals of a vertex on a periodic side. They are computed from its triangles and those of its partner, and are bit-identical
+  /// for both.
   std::optional<std::array<Vec3, 2>> periodic_normals(VertexId v, HalfedgeId ahead, HalfedgeId of_partner) const {
     struct End {
       VertexId vertex;
@@ -150,7 +154,7 @@ class RidgeOpener {
       if (!sees(mean, a) || !sees(mean, b)) return {};
       return mean;
     };
-    // The directions ahead are opposite: the left side of one is the right side of the other.
+    // The directions ahead of both partners are opposite: the left side of one is the right side of the other.
     const std::optional<Vec3> left = normal_of(sector(first.edge, {}), sector({}, second.edge)),
                               right = normal_of(sector({}, first.edge), sector(second.edge, {}));
     if (!left || !right) return {};
@@ -158,7 +162,7 @@ class RidgeOpener {
     return std::array{*right, *left};
   }
 
-  /// Returns the edge of a ridge at a vertex with exactly one; otherwise invalid.
+  /// Returns the ridge edge at a vertex that has exactly one; otherwise an invalid half-edge.
   HalfedgeId only_edge(VertexId v) const {
     HalfedgeId edge;
     for (const HalfedgeId h : topology_.outgoing(v)) {
@@ -169,7 +173,7 @@ class RidgeOpener {
     return edge;
   }
 
-  /// Returns the vertex data if a vertex can be inside a chain; left and right refer to the first edge as the edge ahead.
+  /// Returns the vertex data if a vertex can be inside a chain. Left and right refer to the direction of the first edge, which is the edge ahead.
   std::optional<Inner> inner_at(VertexId v) const {
     Inner inner;
     int n = 0;
@@ -184,7 +188,7 @@ class RidgeOpener {
     return std::ranges::any_of(topology_.neighbours(v), [&](VertexId w) { return distance(point(v), point(w)) > longest_edge_; });
   }
 
-  /// Angle from one normal to another, rad, 0 to two pi.
+  /// Returns the angle from one normal to another in rad, from 0 to two pi.
   static double turn_about(const Vec3& along, const Vec3& left, const Vec3& right) {
     const double angle = std::atan2(dot(cross(left, right), along), dot(left, right));
     return angle < 0.0 ? angle + 2.0 * std::numbers::pi : angle;
@@ -217,7 +221,7 @@ class RidgeOpener {
 
   int n_sectors(double turn) const { return std::max(2, static_cast<int>(std::ceil(turn / options_.fan_angle - k_angle_slack))); }
 
-  /// Returns true if the growth lines make an open corner, with as many sectors as each of its ridges would have alone.
+  /// Returns true if the growth lines form an open corner, with as many sectors as each of its ridges would have without the corner.
   bool is_open_corner(RidgeCorner corner) const {
     for (std::size_t i = 0; i < corner.edges.size(); ++i) corner.n_sectors[i] = n_sectors(corner.turn[i].angle);
     return corner.is_star();
@@ -228,7 +232,7 @@ class RidgeOpener {
     return way - 2.0 * dot(way, normal) * normal;
   }
 
-  /// \pre the edge ahead exists
+  /// Returns the vertex data with its measured turn. \pre the edge ahead exists
   std::optional<Inner> measured(VertexId v, Inner inner) const {
     const Vec3 ahead = normalized(point(topology_.to(inner.ahead)) - point(v));
     Vec3 back;
@@ -258,7 +262,7 @@ class RidgeOpener {
     partner_.resize(wall_.n_vertices());
     for (const auto& pair : domain_.partners)
       for (std::size_t k = 0; k < 2; ++k) {
-        partner_[pair[k]] = is_partner_[pair[k]] == 0 ? pair[1 - k] : VertexId{};  // pairs of one pair of sides
+        partner_[pair[k]] = is_partner_[pair[k]] == 0 ? pair[1 - k] : VertexId{};  // valid only for vertices with a single partner
         is_partner_[pair[k]] = 1;
       }
     patch_beyond_.resize(wall_.n_vertices());
@@ -324,7 +328,7 @@ class RidgeOpener {
         v = next;
       }
     };
-    for (const bool from_ends : {true, false})  // the remaining chains are loops
+    for (const bool from_ends : {true, false})  // the chains that remain in the second pass are loops
       for (const VertexId v : wall_.points.ids()) {
         if (!inner_[v] || is_done[v]) continue;
         const bool is_first = !is_inner_at(inner_[v]->back), is_last = !is_inner_at(inner_[v]->ahead);
@@ -334,7 +338,7 @@ class RidgeOpener {
       }
   }
 
-  /// Distance to the nearest end along the ridges, m; ridges do not end in planes.
+  /// Returns the distance of each vertex to the nearest end along the ridges, m. A plane is no end of a ridge.
   Column<VertexId, double> distances_to_ends() const {
     Column<VertexId, double> to_end(wall_.n_vertices(), k_infinity);
     using Reached = std::pair<double, VertexId>;
@@ -368,14 +372,14 @@ class RidgeOpener {
     return to_end;
   }
 
-  /// Creates the new vertices, and moves the given triangles on the right side to theirs.
+  /// Creates the new vertices. Moves the given triangles on the right side to the new vertices there.
   void make_fans() {
     OpenedRidges& ridges = domain_.ridges;
     ridges.n_given_vertices = wall_.n_vertices();
     ridges.n_given_triangles = wall_.n_triangles();
     to_end_ = distances_to_ends();
     given_ = wall_.points;
-    std::vector<double> most(chains_.size(), 0.0);  // largest turn along each chain, and along chains in which it continues at periodic sides
+    std::vector<double> most(chains_.size(), 0.0);  // largest turn along each chain, including chains in which it continues at periodic sides
     Column<VertexId, std::size_t> chain_of(wall_.n_vertices(), 0);
     for (std::size_t c = 0; c < chains_.size(); ++c) {
       for (const VertexId v : chains_[c]) {
@@ -415,14 +419,14 @@ class RidgeOpener {
     }
   }
 
-  /// Edges beyond the chain's first and last vertex.
+  /// Returns the edges beyond the first and the last vertex of the chain.
   std::array<HalfedgeId, 2> ways_out(const std::vector<VertexId>& chain) const { return {inner_[chain.front()]->back, inner_[chain.back()]->ahead}; }
 
   bool has_fan_pair(const std::array<VertexId, 2>& pair) const {
     return std::ranges::all_of(pair, [&](VertexId v) { return v.index() < inner_.size() && inner_[v] && partner_[v].is_valid(); });
   }
 
-  /// Pairs the growth lines of multi-normal fans on periodic sides with those of the other side.
+  /// Pairs the growth lines of multi-normal fans on periodic sides with the growth lines on the other side.
   void pair_lines() {
     std::vector<std::array<VertexId, 2>> more;
     for (auto& pair : domain_.partners) {
@@ -433,7 +437,7 @@ class RidgeOpener {
     }
     domain_.partners.insert(domain_.partners.end(), more.begin(), more.end());
   }
-  /// The chain's edge at a vertex in a plane.
+  /// Returns the edge of the chain at a vertex that lies in a plane.
   HalfedgeId edge_at(VertexId v) const { return inner_[v]->ahead.is_valid() ? inner_[v]->ahead : inner_[v]->back; }
 
   RidgeCorner* corner_beyond(HalfedgeId h) {
@@ -442,7 +446,7 @@ class RidgeOpener {
     return found == corners_.end() ? nullptr : &found->second;
   }
 
-  /// Creates a growth line. \param is_first: reuses the vertex itself; otherwise a new vertex is added
+  /// Creates a growth line. \param is_first true: the line reuses the vertex itself; false: a new vertex is added
   VertexId new_line(VertexId v, bool is_first, const Vec3& normal) {
     const Point raised = given_[v] + raise_ * normal;
     if (!is_first) return wall_.points.push_back(raised);
@@ -460,7 +464,7 @@ class RidgeOpener {
     for (auto& [v, corner] : corners_) {
       const std::size_t n = corner.edges.size();
       for (std::size_t i = 0; i < n; ++i) {
-        if (corner.n_sectors[i] > 0) continue;  // edge of a chain
+        if (corner.n_sectors[i] > 0) continue;  // the edge belongs to a chain
         double most = corner.turn[i].angle;
         if (const RidgeCorner* const other = corner_beyond(corner.edges[i]))
           most = std::max(most, other->turn[other->edge_number(topology_.twin(corner.edges[i]))].angle);
@@ -499,10 +503,10 @@ class RidgeOpener {
     }
   }
 
-  /// Returns true if a ridge continues in its mirror image there.
+  /// Returns true if a ridge continues at v in its mirror image.
   bool is_at_plane(VertexId v) const { return inner_[v] && (!inner_[v]->ahead.is_valid() || !inner_[v]->back.is_valid()); }
 
-  /// Growth lines of a vertex, from left to right of the direction along an edge that starts there.
+  /// Returns the growth lines of the vertex where an edge starts, from left to right of the direction along the edge.
   std::vector<VertexId> lines_along(HalfedgeId h) const {
     const VertexId v = topology_.from(h);
     if (!inner_[v]) {
@@ -585,16 +589,17 @@ class RidgeOpener {
   Topology topology_;  ///< topology of the given wall
   Column<HalfedgeId, std::uint8_t> is_chain_;
   Column<VertexId, std::uint8_t> is_partner_;
-  Column<VertexId, VertexId> partner_;      ///< for vertices that have exactly one partner
-  Column<VertexId, PatchId> patch_beyond_;  ///< patch of the outer boundary on which the wall ends there; invalid elsewhere, and if there are several
+  Column<VertexId, VertexId> partner_;  ///< partner of each vertex; valid for vertices with exactly one partner
+  /// Patch of the outer boundary on which the wall ends at the vertex; invalid at other vertices, and if there are several such patches.
+  Column<VertexId, PatchId> patch_beyond_;
   Column<VertexId, std::optional<Inner>> inner_;
   std::map<VertexId, RidgeCorner> corners_;
   std::vector<std::vector<VertexId>> chains_;
-  Column<VertexId, double> to_end_;  ///< m
+  Column<VertexId, double> to_end_;  ///< m, distance of each vertex to the nearest end of its ridge
   Column<VertexId, Point> given_;    ///< points of the given wall
 };
 
-/// Ridge base vertices of multi-normal fans at which the opened wall intersects itself, ascending.
+/// Returns the ridge base vertices of multi-normal fans at which the opened wall intersects itself, ascending.
 std::vector<VertexId> crossing_fans(const Domain& opened, const RunContext& context) {
   std::vector<VertexId> feet;
   const auto is_fan = [&](VertexId foot) { return std::ranges::binary_search(opened.ridges.feet, foot, {}, &OpenedRidges::Foot::vertex); };

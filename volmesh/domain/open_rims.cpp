@@ -5,7 +5,8 @@
 namespace sterna::volmesh {
 namespace {
 
-constexpr double k_open_cosine = 0.03;  ///< between a wall's normal and the direction into the patch beyond: below, the fluid's angle is above 178 degrees
+constexpr double k_open_cosine = 0.03;  ///< cosine of the angle between a wall's normal and the direction into the patch beyond: below this value, the angle of
+                                        ///< the fluid is above 178 degrees
 
 bool lets_flow_through(PatchKind kind) { return kind == PatchKind::inflow || kind == PatchKind::outflow; }
 

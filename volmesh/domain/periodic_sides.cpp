@@ -1,5 +1,6 @@
-// Steps for each pair: find_patch; flatten the first; match the border vertices of both (match_borders) and the direction of the edges between them; move the
-// second's vertices onto the images if its triangles are the image of the first's, otherwise replace them by the first's triangles.
+// Steps for each pair: find_patch; flatten the first side; match the border vertices of both sides (match_borders) and the direction of the edges between them.
+// If the triangles of the second side are the image of those of the first, the vertices of the second are moved onto the images. Otherwise its triangles are
+// replaced by those of the first.
 #include "volmesh/domain/periodic_sides.h"
 
 #include <algorithm>
@@ -16,10 +17,10 @@
 namespace sterna::volmesh {
 namespace {
 
-constexpr double k_facing_cosine = -0.999;  ///< cosine between the normals of opposite sides: k_side_tolerance leaves less than that
+constexpr double k_facing_cosine = -0.999;  ///< largest cosine between the normals of opposite sides; k_side_tolerance permits smaller deviations only
 
-constexpr double k_slide = 0.35;      ///< share of the shorter edge at a border vertex: largest movement along the border that keeps its triangles valid
-constexpr double k_slide_off = 0.03;  ///< share of that edge: largest distance of the image from the border: curved borders are polygons
+constexpr double k_slide = 0.35;      ///< fraction of the shorter edge at a border vertex: largest movement along the border that keeps its triangles valid
+constexpr double k_slide_off = 0.03;  ///< fraction of that edge: largest distance of the image from the border, because curved borders are polygons
 
 using Edge = std::array<VertexId, 2>;
 
@@ -80,7 +81,7 @@ class Joiner {
     fail("there is no patch \"" + name + "\"" + (nearest.empty() ? "" : ", did you mean \"" + nearest + "\"?"));
   }
 
-  /// Moves a side into its plane; returns the plane's normal.
+  /// Moves a side into its plane. Returns the normal of the plane.
   Vec3 flatten(PatchId side) {
     const PatchVertices vertices(mesh_, side);
     if (vertices.vertices().empty()) fail("patch \"" + mesh_.patches[side].name + "\" has no triangles");
@@ -90,7 +91,7 @@ class Joiner {
       fail("patch \"" + mesh_.patches[side].name + "\" is not flat: a vertex is " + metres(flat.distance) + " from its mean plane, limit " +
            metres(tolerance_));
     }
-    if (side == result_.second) return flat.normal;  // moved later to the first side's image
+    if (side == result_.second) return flat.normal;  // the second side is moved later, onto the image of the first
     for (const VertexId v : vertices.vertices()) {
       Point& p = mesh_.points[v];
       p -= dot(p - flat.point, flat.normal) * flat.normal;
@@ -100,7 +101,7 @@ class Joiner {
     return flat.normal;
   }
 
-  /// Half-edges of a side's triangles without a twin among them, in order.
+  /// Returns the half-edges of a side's triangles that have no twin among these triangles, in order.
   std::vector<Edge> border_of(PatchId side) {
     std::set<Edge> edges;
     for (const TriangleId t : mesh_.triangles.ids()) {
@@ -123,7 +124,7 @@ class Joiner {
   }
 
   void find_translation(const std::vector<VertexId>& first, const std::vector<VertexId>& second) {
-    // Medians of the coordinates: the median of the image is the image of the median, and a few displaced vertices do not affect it.
+    // Medians of coordinates are used, because the median of the image is the image of the median, and a few displaced vertices do not affect it.
     const auto median = [&](const std::vector<VertexId>& vertices, std::size_t axis) {
       std::vector<double> values;
       for (const VertexId v : vertices) values.push_back(mesh_.points[v][axis]);
@@ -135,13 +136,13 @@ class Joiner {
       if (std::abs(result_.translation[k]) <= tolerance_) result_.translation[k] = 0.0;
   }
 
-  /// Matches vertices of `first` with vertices of `second`, adds them to `partner`, and returns true if each has its own partner. \throws if not all match and
-  /// `must` is set
+  /// Matches vertices of `first` with vertices of `second` and adds the pairs to `partner`. Returns true if each vertex has its own partner. \throws if not all
+  /// match and `must` is set
   bool match(const std::vector<VertexId>& first, const std::vector<VertexId>& second, std::map<VertexId, VertexId>& partner, bool must) {
     std::vector<std::pair<double, VertexId>> sorted;
     const auto key = [](const Point& p) {
       return p.x + 0.7 * p.y + 0.4 * p.z;
-    };  // differs between points of sides along coordinate axes; changes by at most sqrt(3) times the distance moved
+    };  // key that differs between the points of sides along coordinate axes; it changes by at most sqrt(3) times the distance moved
     for (const VertexId v : second) sorted.emplace_back(key(mesh_.points[v]), v);
     std::ranges::sort(sorted);
     std::set<VertexId> is_taken;
@@ -176,9 +177,9 @@ class Joiner {
            " m between the sides)");
     return true;
   }
-  /// Matches borders along the same lines with equally many edges but different vertex locations, as from a mesher whose sizes on the two sides differ a
-  /// little. The translation is then that of their boxes, and vertices of the second side move along its border to the images. Returns true if that is
-  /// possible.
+  /// Matches borders that follow the same lines with equally many edges but different vertex locations. Such borders come from meshers whose sizes on the two
+  /// sides differ slightly. The translation is then that of the boxes of the sides, and vertices of the second side move along its border to the images.
+  /// Returns true if that is possible.
   bool slide(const std::vector<Edge>& first, const std::vector<Edge>& second, const RunContext& context) {
     const std::vector<VertexId> of_first = vertices_of(first), of_second = vertices_of(second);
     if (of_first.size() != of_second.size()) return false;
@@ -303,7 +304,7 @@ class Joiner {
 
   TriMesh& mesh_;
   const PeriodicNames& names_;
-  Column<TriangleId, TriangleId>& sources_;  ///< sources of the boundary's triangles, as in JoinedSides
+  Column<TriangleId, TriangleId>& sources_;  ///< sources of the triangles of the boundary, as in JoinedSides
   double tolerance_;
   ErrorInfo error_;
   PeriodicPatches result_;
@@ -333,7 +334,7 @@ JoinedSides join_periodic_sides(TriMesh& boundary, std::span<const PeriodicNames
 std::vector<PeriodicPatches> move_onto_images(TriMesh& boundary, std::span<const PeriodicNames> names, const RunContext& context) {
   if (names.empty()) return {};
   TriMesh joined = boundary;
-  // No logging here: it happens when they are finally joined.
+  // Nothing is logged here, because the sides are logged when they are finally joined.
   std::vector<PeriodicPatches> pairs = join_periodic_sides(joined, names, RunContext({.threads = context.threads()})).pairs;
   for (PeriodicPatches& pair : pairs)
     std::erase_if(pair.vertices, [&](const std::array<VertexId, 2>& vertices) { return vertices[1].index() >= boundary.n_vertices(); });

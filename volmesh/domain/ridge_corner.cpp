@@ -3,8 +3,8 @@
 namespace sterna::volmesh {
 namespace {
 
-constexpr double k_corner_cosine = 0.3;  ///< least cosine between growth lines of a corner and the virtual triangles there
-constexpr double k_corner_slack = 0.05;  ///< cosine: growth lines of knife edges are at a right angle to the middle line
+constexpr double k_corner_cosine = 0.3;  ///< smallest cosine between the growth lines of a corner and the normals of its virtual triangles
+constexpr double k_corner_slack = 0.05;  ///< tolerance for the cosine, because growth lines of knife edges are at right angles to the middle line
 
 }  // namespace
 

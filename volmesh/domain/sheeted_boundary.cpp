@@ -10,7 +10,7 @@
 namespace sterna::volmesh {
 namespace {
 
-constexpr double k_given_plane = 1e-6;  ///< share of the body length: a given symmetry patch this close to a plane lies in it
+constexpr double k_given_plane = 1e-6;  ///< fraction of the body length: a given symmetry patch within this distance of a plane lies in the plane
 
 /// A given symmetry patch that is left out and re-meshed.
 struct LeftOut {
@@ -31,12 +31,12 @@ std::optional<LeftOut> in_plane(const TriMesh& mesh, PatchId patch) {
   return std::nullopt;
 }
 
-/// The user's triangles without symmetry planes; vertices in the order of the boundary.
+/// The user's triangles without those in symmetry planes. Vertices are in the order of the boundary.
 struct UserPart {
   TriMesh mesh;
-  std::vector<TriangleId> triangles;  ///< triangle numbers in the boundary
+  std::vector<TriangleId> triangles;  ///< numbers of the triangles in the boundary
   std::vector<LeftOut> left_out;
-  Column<VertexId, VertexId> partner;  ///< for vertices with a partner on another periodic side
+  Column<VertexId, VertexId> partner;  ///< partner of each vertex on another periodic side, if it has one
 };
 
 UserPart user_part(const TriMesh& complete, std::size_t n_given, const NeedleSplits& needles, std::span<const PeriodicPatches> periodic) {
@@ -87,14 +87,14 @@ UserPart user_part(const TriMesh& complete, std::size_t n_given, const NeedleSpl
         part.partner[number[a]] = number[b];
         part.partner[number[b]] = number[a];
       }
-  // Patches that completion adds come after the user's own.
+  // The patches that the completion adds come after the user's own patches.
   std::size_t n_own = complete.patches.size();
   while (n_own > 0 && !has_given[PatchId(n_own - 1)]) --n_own;
   part.mesh.patches.resize(n_own);
   return part;
 }
 
-/// Moves the entries added by the sheets behind all entries of the completion.
+/// Moves the entries that the sheets add behind all entries of the completion.
 template <class I, class T>
 void move_to_end(Column<I, T>& column, std::size_t begin, std::size_t end) {
   std::vector<T>& values = column.raw();

@@ -13,10 +13,10 @@
 namespace sterna::volmesh {
 namespace {
 
-/// rad; the same limit as for edges of curved adjacent surfaces, which footprints may not cross (rims/end_surface.h).
+/// Rad: the limit equals that for edges of curved adjacent surfaces, which footprints may not cross (rims/end_surface.h).
 constexpr double k_corner_angle = 40.0 * std::numbers::pi / 180.0;
 
-/// Edges of the boundary, classified by both adjacent patches.
+/// Edges of the boundary, classified by the patches on both sides.
 class Corners {
  public:
   Corners(const TriMesh& boundary, const Column<PatchId, std::uint8_t>& has_layer, const RunContext& context)
@@ -27,8 +27,8 @@ class Corners {
     });
   }
 
-  /// Patches without layers that have a sharp edge at a layer boundary, or at an edge shared with another patch on which layers end: that edge is re-divided as
-  /// a whole.
+  /// Returns 1 for patches without layers that have a sharp edge at a layer boundary, or at an edge shared with another patch on which layers end. The latter
+  /// edge is divided again along its whole length.
   std::vector<std::uint8_t> patches_with_corners() const {
     std::vector<std::uint8_t> has_corner(boundary_.patches.size(), 0);
     const Column<VertexId, std::uint8_t> is_shared = vertices_between_ends();
@@ -41,7 +41,7 @@ class Corners {
     return has_corner;
   }
 
-  /// For each triangle of such patches, the lowest triangle of the smooth part of its patch.
+  /// Returns for each triangle of such patches the lowest triangle of the smooth part of the patch that contains it.
   std::vector<std::uint32_t> smooth_parts(const std::vector<std::uint8_t>& patches) const {
     DisjointSets parts(boundary_.n_triangles());
     for_each_edge([&](HalfedgeId, TriangleId t, TriangleId beyond) {
@@ -51,7 +51,7 @@ class Corners {
     return std::move(parts).roots();
   }
 
-  /// For each part, stored at its lowest triangle: 1 if a layer ends on it along an edge.
+  /// Returns for each part, stored at its lowest triangle, 1 if a layer ends on the part along an edge.
   std::vector<std::uint8_t> parts_with_rims(const std::vector<std::uint32_t>& parts) const {
     std::vector<std::uint8_t> has_rim(boundary_.n_triangles(), 0);
     for_each_edge([&](HalfedgeId, TriangleId t, TriangleId beyond) {
@@ -61,7 +61,7 @@ class Corners {
   }
 
  private:
-  /// For each vertex, 1 if two patches on which layers end share an edge there.
+  /// Returns for each vertex 1 if two patches on which layers end share an edge at the vertex.
   Column<VertexId, std::uint8_t> vertices_between_ends() const {
     std::vector<std::uint8_t> is_end(boundary_.patches.size(), 0);
     for_each_edge([&](HalfedgeId, TriangleId t, TriangleId beyond) {
@@ -102,7 +102,7 @@ void split_at_corners(TriMesh& boundary, Column<PatchId, std::uint8_t>& has_laye
   if (std::ranges::find(is_split, 1) == is_split.end()) return;
   const std::vector<std::uint32_t> part = corners_of.smooth_parts(is_split);
   const std::vector<std::uint8_t> has_rim = corners_of.parts_with_rims(part);
-  std::map<std::uint32_t, PatchId> own;  // key: lowest triangle of the part
+  std::map<std::uint32_t, PatchId> own;  // the key is the lowest triangle of the part
   for (const TriangleId t : boundary.triangles.ids()) {
     const PatchId patch = boundary.triangle_patch[t];
     const std::uint32_t root = part[t.index()];

@@ -1,5 +1,5 @@
-// Steps: find sliver triangles (if none, nothing is done); flip edges around them; bisect, each time with the flips that the new vertex makes possible; verify
-// that nothing intersects.
+// Steps: find sliver triangles (if there are none, nothing is done); flip edges around them; bisect edges, each time with the flips that the new vertex makes
+// possible; verify that nothing intersects.
 #include "volmesh/domain/split_needles.h"
 
 #include <algorithm>
@@ -18,20 +18,27 @@
 namespace sterna::volmesh {
 namespace {
 
-constexpr double k_flip_gain = 0.95;     ///< a flip reduces the worst cotangent of a pair at least to this share: this prevents flipping back and forth
-constexpr double k_flip_drift = 0.3;     ///< share of flip_angle (rad) times the shorter diagonal: a square folded by the angle moves by a quarter
-constexpr double k_hairline = 1e-6;      ///< share of the diagonal: thinner triangles have normals of rounding, only the diagonals' distance counts
-constexpr double k_needle_reach = 32.0;  ///< pieces of a long edge; slivers that would need more are left, as the pieces in between would be slivers too
-constexpr double k_least_piece = 0.45;   ///< share of the piece length at which a given triangle's longest edge makes no sliver: halves may fall below it once
-constexpr double k_crease_share = 2.0 / 3.0;  ///< share of a triangle's longest edge: creases this long are bisected before it, because only they need it
-constexpr double k_path_ratio = 1.6;          ///< edge ratio: beyond it the neighbour's longest edge is bisected first. Above 1 / k_crease_share, so paths end
-constexpr double k_spoilt = 1.01;             ///< limit for the cotangent sum of a triangle's sliver parts, relative to its own cotangent
-constexpr int k_needle_passes = 6;            ///< one pass of flips alone; each further pass does not split the triangles that the previous pass worsened
-constexpr double k_sharper = 1.1;             ///< largest factor by which a bisection may increase a sliver's cotangent
+/// A flip reduces the larger cotangent of its two triangles at least to this fraction, which prevents flipping back and forth.
+constexpr double k_flip_gain = 0.95;
+constexpr double k_flip_drift = 0.3;  ///< largest movement of the surface in a flip, as a fraction of flip_angle (rad) times the shorter diagonal; a square
+                                      ///< folded by the angle moves by a quarter
+/// Fraction of the diagonal: normals of thinner triangles consist of rounding errors, so only the distance of the diagonals is tested.
+constexpr double k_hairline = 1e-6;
+/// Largest number of pieces of a long edge; slivers that would need more pieces are left, because the triangles in between would be slivers too.
+constexpr double k_needle_reach = 32.0;
+constexpr double k_least_piece = 0.45;  ///< shortest edge that bisection may make, as a fraction of the piece length at which the parts of the given triangle
+                                        ///< are no slivers; below one half, so that a half may be shorter than such a piece once
+/// Fraction of a triangle's longest edge: creases at least this long are bisected first, because only creases need bisection.
+constexpr double k_crease_share = 2.0 / 3.0;
+constexpr double k_path_ratio = 1.6;  ///< ratio of edges: if the neighbour's longest edge is longer than this, it is bisected first. The ratio is above 1 /
+                                      ///< k_crease_share, so that paths end
+constexpr double k_spoilt = 1.01;     ///< limit for the cotangent sum of the sliver parts of a triangle, relative to its own cotangent
+constexpr int k_needle_passes = 6;    ///< the first pass only flips edges; each further pass leaves out the triangles that became worse in the previous pass
+constexpr double k_sharper = 1.1;     ///< largest factor by which a bisection may increase a sliver's cotangent
 constexpr double k_endless_cotangent = 1e300;
 
 using FaceId = std::uint32_t;
-/// 3 face + corner: the side from that corner to the next.
+/// Number of a side, 3 face + corner: the side from that corner to the next one.
 using SideId = std::uint32_t;
 
 FaceId face_of(SideId s) { return s / 3; }
@@ -45,7 +52,7 @@ struct WallFace {
   PatchId patch;
   TriangleId source;
   bool has_layer = false;
-  double least_edge = 0.0;  ///< m, bisection makes no shorter edges
+  double least_edge = 0.0;  ///< m; bisection makes no edge shorter than this
   double drift = 0.0;       ///< m, largest distance from the given surface
   CornerWeights weights{};
 };
@@ -54,14 +61,14 @@ std::array<double, 3> middle_weights(const std::array<double, 3>& a, const std::
   return {0.5 * (a[0] + b[0]), 0.5 * (a[1] + b[1]), 0.5 * (a[2] + b[2])};
 }
 
-/// Distance of the lines through ab and cd: how far a surface moves if one diagonal replaces the other.
+/// Returns the distance between the lines through ab and cd. The surface moves by this distance if one diagonal replaces the other.
 double diagonal_distance(const Point& a, const Point& b, const Point& c, const Point& d) {
   const Vec3 n = cross(b - a, d - c);
   const double length = norm(n);
   return length > 0.0 ? std::abs(dot(n, c - a)) / length : 0.0;
 }
 
-/// Cotangent of the smallest angle.
+/// Returns the cotangent of the smallest angle.
 double cotangent_of(const Point& a, const Point& b, const Point& c) {
   const double ab = norm2(b - a), bc = norm2(c - b), ca = norm2(a - c), doubled = norm(cross(b - a, c - a));
   const double scalar = 0.5 * (ab + bc + ca) - std::min({ab, bc, ca});
@@ -107,7 +114,7 @@ class NeedleSplitter {
     while (!queue_.empty()) {
       const Candidate candidate = queue_.top();
       queue_.pop();
-      if (candidate.cotangent != cotangent(candidate.face)) continue;  // entry of a triangle that no longer exists
+      if (candidate.cotangent != cotangent(candidate.face)) continue;  // the entry belongs to a triangle that no longer exists
       const SideId chosen = side_to_bisect(candidate.face);
       if (chosen == k_none) continue;
       if (n_new_ + 2 > budget) {
@@ -124,14 +131,14 @@ class NeedleSplitter {
     }
   }
 
-  /// Sum of the cotangents of sliver triangles: a measure of their number and sharpness.
+  /// Returns the sum of the cotangents of sliver triangles, a measure of their number and sharpness.
   double sharpness() const {
     double sum = 0.0;
     for (FaceId f = 0; f < faces_.size(); ++f) sum += is_needle(f) ? cotangent(f) : 0.0;
     return sum;
   }
 
-  /// Marks the given triangles whose sliver parts are more, or sharper, than before. Returns false if no new triangle is marked.
+  /// Marks the given triangles whose sliver parts are more or sharper than before. Returns false if no further triangle is marked.
   bool lock_spoilt(const TriMesh& given, Column<TriangleId, std::uint8_t>& is_locked) const {
     Column<TriangleId, double> sum(is_locked.size(), 0.0);
     for (FaceId f = 0; f < faces_.size(); ++f)
@@ -169,7 +176,7 @@ class NeedleSplitter {
   struct Candidate {
     double cotangent;
     FaceId face;
-    /// The top of priority_queue is the largest: the mildest sliver, the first face.
+    /// The top of a priority_queue is its largest element. This order makes it the mildest sliver, and among equal ones the first face.
     bool operator<(const Candidate& b) const { return cotangent != b.cotangent ? cotangent > b.cotangent : face > b.face; }
   };
 
@@ -200,7 +207,7 @@ class NeedleSplitter {
 
   bool is_straight(const Vec3& a, const Vec3& b) const { return dot(a, b) >= flat_cosine_ * norm(a) * norm(b); }
 
-  /// Returns true if the wall is flat along an edge inside a patch.
+  /// Returns true if an edge is inside a patch and the wall is flat along it.
   bool is_flat(SideId s) const {
     const SideId t = twin(s);
     if (options_.flip_angle == 0.0 || !is_inner(s) || faces_[face_of(s)].patch != faces_[face_of(t)].patch) return false;
@@ -254,7 +261,8 @@ class NeedleSplitter {
     ++n_flips_;
   }
 
-  /// Flips edges of sliver triangles among these faces, and of faces that change by it, as long as that helps. Returns all of these faces, ascending.
+  /// Flips edges of sliver triangles among these faces, and of faces that change in the process, as long as flips improve angles. Returns all these faces,
+  /// ascending.
   std::vector<FaceId> flip_around(std::vector<FaceId> faces) {
     std::vector<FaceId> waiting(faces.rbegin(), faces.rend());
     while (!waiting.empty()) {
@@ -283,7 +291,7 @@ class NeedleSplitter {
     return faces;
   }
 
-  /// Returns true if the angle between creases around a corner leaves room for better angles.
+  /// Returns true if the angle between the creases at a corner is large enough for better angles.
   bool has_room(SideId at_corner) const {
     double angle = corner_angle(from(at_corner), to(at_corner), opposite(at_corner));
     const auto add = [&](SideId s) { return angle += corner_angle(from(s), to(s), opposite(s)); };
@@ -302,7 +310,7 @@ class NeedleSplitter {
     return angle >= options_.split_needles;
   }
 
-  /// Returns the longest edge of a triangle, or a crease that is nearly as long.
+  /// Returns the longest edge of a triangle, or a crease of the triangle that is nearly as long.
   SideId long_side(FaceId f) const {
     SideId longest = side_at(f, 0);
     for (std::uint32_t k = 1; k < 3; ++k)
@@ -316,7 +324,7 @@ class NeedleSplitter {
     return crease != k_none ? crease : longest;
   }
 
-  /// Returns true if a triangle is a sliver that stays one, in any number of pieces.
+  /// Returns true if a triangle is a sliver that stays a sliver, whatever the number of pieces.
   bool is_hopeless(FaceId f) const {
     const double sharp = cotangent(f);
     if (!faces_[f].has_layer || sharp <= limit_) return false;
@@ -324,7 +332,7 @@ class NeedleSplitter {
     SideId shortest = side_at(f, 0);
     for (std::uint32_t k = 1; k < 3; ++k)
       if (length2(side_at(f, k)) < length2(shortest)) shortest = side_at(f, k);
-    return !has_room(side_before(shortest));  // room at the smallest angle
+    return !has_room(side_before(shortest));  // tests the room at the smallest angle
   }
 
   /// Returns true if a triangle's halves would be sharper slivers than the triangle itself.
@@ -335,7 +343,7 @@ class NeedleSplitter {
     return worst > std::max(limit_, k_sharper * cotangent(face_of(s)));
   }
 
-  /// Returns the edge to bisect to improve a sliver; none if that would not help.
+  /// Returns the edge to bisect to improve a sliver; none if bisection would not improve it.
   SideId side_to_bisect(FaceId f) const {
     const SideId s = long_side(f);
     if (!is_inner(s) || length2(s) < 4.0 * faces_[f].least_edge * faces_[f].least_edge) return k_none;
@@ -389,7 +397,7 @@ class NeedleSplitter {
   double limit_;  ///< limit of the cotangent
   double flat_cosine_;
   Column<VertexId, Point> points_;
-  const Column<TriangleId, std::uint8_t>& is_locked_;  ///< for given triangles
+  const Column<TriangleId, std::uint8_t>& is_locked_;  ///< flags of the given triangles
   std::vector<WallFace> faces_;                        ///< all faces of the boundary
   std::priority_queue<Candidate> queue_;
   std::int64_t n_given_ = 0, n_new_ = 0, n_flips_ = 0, n_bisections_ = 0;

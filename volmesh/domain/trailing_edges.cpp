@@ -12,13 +12,14 @@ namespace sterna::volmesh {
 namespace {
 
 constexpr double k_sharp_edge_turn = 120.0 * k_degree;
-constexpr double k_looks_downstream = 0.342;  ///< cosine of 70 degrees; limit between stream and edge direction
+constexpr double k_looks_downstream = 0.342;  ///< cosine of 70 degrees: largest angle between the stream and the outward direction of the edge
 constexpr double k_base_turn_from = 40.0 * k_degree, k_base_turn_to = 140.0 * k_degree;
-constexpr double k_base_cosine = 0.7, k_side_of_base_cosine = 0.5;  ///< cosines to the stream: a base has a larger cosine, a side a smaller one
-constexpr double k_upright = 0.3;                                   ///< largest |z| in the normals of upright sides
-constexpr double k_base_width = 0.1;                                ///< share of the chord
-constexpr double k_chain_bend = 0.5;                                ///< cosine of 60 degrees
-constexpr double k_median_reach = 0.5;                              ///< chords
+/// Cosine between normal and stream: above the first value a triangle is part of a base, below the second part of a side.
+constexpr double k_base_cosine = 0.7, k_side_of_base_cosine = 0.5;
+constexpr double k_upright = 0.3;       ///< largest |z| of the normals of upright sides
+constexpr double k_base_width = 0.1;    ///< largest width of a base, as a fraction of the chord
+constexpr double k_chain_bend = 0.5;    ///< cosine of 60 degrees: largest bend of a chain
+constexpr double k_median_reach = 0.5;  ///< chords: range to both sides over which medians are taken
 constexpr std::size_t k_least_edges = 3;
 
 Vec3 unit_normal_of(const TriMesh& wall, TriangleId t) {
@@ -38,18 +39,18 @@ Column<TriangleId, std::uint8_t> marks_of(const TriMesh& wall, const WingTriangl
   return result;
 }
 
-/// Unit vector out of the wing, across an edge and halfway between both of its sides.
+/// Returns the unit vector out of the wing, across an edge and halfway between both of its sides.
 Vec3 looks_along(const TriMesh& wall, const Topology& topology, HalfedgeId edge) {
   const Vec3 e = along(wall, topology, edge);
   return normalized(cross(e, unit_normal_of(wall, triangle_of(edge))) + cross(unit_normal_of(wall, triangle_of(topology.twin(edge))), e));
 }
 
-/// Turn of the wall at an edge, rad, positive where convex.
+/// Returns the turn of the wall at an edge in rad, positive where the edge is convex.
 double turn_of(const TriMesh& wall, const Topology& topology, HalfedgeId h) {
   const Vec3 own = unit_normal_of(wall, triangle_of(h)), other = unit_normal_of(wall, triangle_of(topology.twin(h)));
   const double turn = std::atan2(dot(cross(own, other), along(wall, topology, h)), dot(own, other));
   const bool is_knife = turn < -k_sharp_edge_turn && dot(looks_along(wall, topology, h), own + other) >= 0.0;
-  return is_knife ? -turn : turn;  // 180 degrees up to rounding
+  return is_knife ? -turn : turn;  // the turn is 180 degrees except for rounding, so its sign is not reliable
 }
 
 bool is_sharp(const TriMesh& wall, const Topology& topology, HalfedgeId h, const Vec3& stream) {
@@ -60,7 +61,7 @@ bool looks_up(const Vec3& normal) { return std::abs(normal.z) > k_upright ? norm
 
 bool is_base(const Vec3& normal, const Vec3& stream) { return dot(normal, stream) > k_base_cosine; }
 
-/// Returns true if the half-edge's own triangle is the side and its twin's triangle the base.
+/// Returns true if the half-edge's own triangle belongs to the side and the triangle of its twin to the base.
 bool is_above_base(const TriMesh& wall, const Topology& topology, HalfedgeId h, const Vec3& stream) {
   const Vec3 side = unit_normal_of(wall, triangle_of(h)), base = unit_normal_of(wall, triangle_of(topology.twin(h)));
   if (!is_base(base, stream) || dot(side, stream) > k_side_of_base_cosine || !looks_up(side)) return false;
@@ -68,7 +69,7 @@ bool is_above_base(const TriMesh& wall, const Topology& topology, HalfedgeId h, 
   return turn > k_base_turn_from && turn < k_base_turn_to;
 }
 
-/// Calls f(point) for each point in which the plane section cuts edges, along the connected section from a vertex. \p is_part: returns true if the section may
+/// Calls f(point) for each point at which the plane section cuts edges, along the connected section from a vertex. \p is_part returns true if the section may
 /// cross a triangle
 template <class IsPart, class F>
 void walk_section(const TriMesh& wall, const Topology& topology, VertexId from, const Vec3& normal, const IsPart& is_part, const F& f) {
@@ -97,7 +98,7 @@ void walk_section(const TriMesh& wall, const Topology& topology, VertexId from, 
   }
 }
 
-/// Normal of the section plane at a vertex inside a chain.
+/// Returns the normal of the section plane at a vertex inside a chain.
 Vec3 section_normal(const TriMesh& wall, const Topology& topology, HalfedgeId back, HalfedgeId ahead, const Vec3& stream) {
   const Vec3 edge = normalized(along(wall, topology, ahead) + along(wall, topology, back));
   return normalized(edge - dot(edge, stream) * stream);
@@ -128,11 +129,11 @@ double weighted_median(std::vector<std::array<double, 2>> values) {
   return 0.0;
 }
 
-/// Replaces values at a chain's vertices by medians over k_median_reach chords to both sides. Near a body, sections continue over the body or end at the wing's
-/// root, and at a tip they become arbitrarily short.
+/// Replaces the values at a chain's vertices by medians over k_median_reach chords to both sides. Medians are needed because sections near a body continue over
+/// the body or end at the wing's root, and sections at a tip become arbitrarily short.
 std::vector<double> medians_along(const TriMesh& wall, const Topology& topology, const TrailingEdge& chain, const std::vector<double>& values) {
   const std::size_t n = values.size();
-  std::vector<double> at = {0.0}, weight(n, 0.0);  // position along the chain, m; weight, m
+  std::vector<double> at = {0.0}, weight(n, 0.0);  // m: position along the chain, and weight
   for (std::size_t i = 0; i < chain.edges.size(); ++i) {
     const double length = distance(wall.points[topology.from(chain.edges[i])], wall.points[topology.to(chain.edges[i])]);
     at.push_back(at.back() + length);
@@ -173,7 +174,7 @@ std::vector<TrailingEdge> find_trailing_edges(const TriMesh& wall, const Topolog
     kind[h] = kind[twin] = is_blunt ? blunt : sharp;
     for (const VertexId v : {topology.from(h), topology.to(h)}) n_edges[v] = static_cast<std::uint8_t>(std::min(3, n_edges[v] + 1));
   }
-  const auto next_of = [&](HalfedgeId h) {  // invalid at the end of a chain
+  const auto next_of = [&](HalfedgeId h) {  // the next half-edge is invalid at the end of a chain
     const VertexId v = topology.to(h);
     if (n_edges[v] != 2) return HalfedgeId();
     for (const HalfedgeId other : topology.outgoing(v))
@@ -183,7 +184,7 @@ std::vector<TrailingEdge> find_trailing_edges(const TriMesh& wall, const Topolog
   };
   std::vector<TrailingEdge> chains;
   Column<HalfedgeId, std::uint8_t> is_done(topology.n_halfedges(), 0);
-  for (const bool from_ends : {true, false})  // the remaining chains are loops
+  for (const bool from_ends : {true, false})  // the chains that remain in the second pass are loops
     for (std::size_t i = 0; i < topology.n_halfedges(); ++i) {
       const HalfedgeId first(i);
       if (kind[first] == none || is_done[first] || (from_ends && next_of(topology.twin(first)).is_valid())) continue;

@@ -1,5 +1,6 @@
-// Steps for each chain of trailing edges: shape (directions, chords, stations), keep (cells with enough space; no free boundary edge between two boundary
-// vertices), number, open the edge, add triangles. Both sides are slightly offset from their common base vertex, so all later steps work as on any thin body.
+// Steps for each chain of trailing edges: shape (directions, chords, stations); keep (cells with enough space, such that no edge inside the sheet joins two
+// boundary vertices); number; open the edge; add triangles. Both sides are slightly offset from their common base vertices, so all later steps work as on any
+// thin body.
 #include "volmesh/domain/wake_sheets.h"
 
 #include <algorithm>
@@ -24,23 +25,27 @@ namespace sterna::volmesh {
 namespace {
 
 constexpr const char* k_wake_attempt = "making wake sheets";
-constexpr double k_sheet_raise = 0.01;          ///< share of the first height: offset of both sides from their base vertex
-constexpr double k_least_sheet_raise = 1e-11;   ///< share of the largest coordinate: leaves five digits for normals between both sides
-constexpr double k_blend = 1.5;                 ///< chords over which the sheet turns into the free stream
-constexpr double k_least_start = 0.25;          ///< share of the edge across the stream: least first edge along the stream, to avoid sliver triangles
-constexpr double k_short_end = 0.25;            ///< share of the edges upstream of a chain, and of its median edge: shorter edges at its free ends get no sheet
-constexpr std::size_t k_least_sheet_edges = 3;  ///< least edges of a chain, with or without short ends
-constexpr double k_longest = 2.5;               ///< largest ratio of an edge along the stream to the edge across, so that tops of layers are no slivers
-constexpr double k_longest_fine = 3.0, k_longest_chord = 0.05;  ///< the same ratio where edges across are shorter than this share of the chord
-constexpr double k_spread = 0.3;                                ///< chords over which streamwise lines become equidistant
-constexpr double k_spread_slope = 0.7;  ///< largest sideways shift for that, as a share of the distance along the line: otherwise cells would lean and cross
-constexpr double k_clear_angle = 0.3;   ///< share of the distance from the trailing edge: nearer walls block the sheet, unless farther than an edge
-constexpr double k_start_share = 0.01;  ///< share of the first edge: ray hits nearer than this are the wall at the start
+constexpr double k_sheet_raise = 0.01;  ///< fraction of the first height: offset of both sides from their base vertex
+/// Lower limit of the offset, as a fraction of the largest coordinate: normals between both sides then have five digits.
+constexpr double k_least_sheet_raise = 1e-11;
+constexpr double k_blend = 1.5;         ///< number of chords over which the sheet turns into the free stream
+constexpr double k_least_start = 0.25;  ///< shortest first edge along the stream, as a fraction of the edge across, to avoid sliver triangles
+/// Edges at the free ends of a chain get no sheet if they are shorter than this fraction of the edges upstream, and of the chain's median edge.
+constexpr double k_short_end = 0.25;
+constexpr std::size_t k_least_sheet_edges = 3;  ///< smallest number of edges of a chain, with and without its short ends
+constexpr double k_longest = 2.5;               ///< largest ratio of an edge along the stream to the edge across, so that the top of the layer has no slivers
+/// The same ratio where edges across are shorter than the second value, a fraction of the chord.
+constexpr double k_longest_fine = 3.0, k_longest_chord = 0.05;
+constexpr double k_spread = 0.3;  ///< number of chords over which streamwise lines become equidistant
+/// Largest sideways shift for that, as a fraction of the distance along the line; with a larger shift cells would lean and cross.
+constexpr double k_spread_slope = 0.7;
+constexpr double k_clear_angle = 0.3;   ///< fraction of the distance from the trailing edge: nearer walls block the sheet, unless they are farther than an edge
+constexpr double k_start_share = 0.01;  ///< fraction of the first edge: nearer ray hits are on the wall at the start
 constexpr std::size_t k_most_stations = 1000;
-constexpr int k_shape_sweeps = 3;       ///< smoothing sweeps of chords along the edge
-constexpr double k_shape_reach = 0.15;  ///< chords to both sides over which directions are averaged
+constexpr int k_shape_sweeps = 3;       ///< number of smoothing sweeps for chords along the edge
+constexpr double k_shape_reach = 0.15;  ///< number of chords to both sides over which directions are averaged
 
-/// Mean length of the edges that run upstream from a vertex of the trailing edge, m.
+/// Returns the mean length in metres of the edges that run upstream from a vertex of the trailing edge.
 double upstream_edge(const TriMesh& wall, const Topology& topology, VertexId v, const Vec3& stream) {
   double sum = 0.0;
   int n = 0;
@@ -62,7 +67,7 @@ struct BorderPlane {
 };
 
 std::vector<BorderPlane> border_planes(const TriMesh& wall, const Topology& topology) {
-  std::map<std::pair<std::size_t, double>, std::size_t> n_edges;  // key: axis and coordinate
+  std::map<std::pair<std::size_t, double>, std::size_t> n_edges;  // the key is axis and coordinate
   std::vector<std::array<VertexId, 2>> border;
   for (std::size_t i = 0; i < topology.n_halfedges(); ++i) {
     const HalfedgeId h(i);
@@ -71,7 +76,7 @@ std::vector<BorderPlane> border_planes(const TriMesh& wall, const Topology& topo
     for (std::size_t k = 0; k < 3; ++k)
       if (const double at = wall.points[border.back()[0]][k]; at == wall.points[border.back()[1]][k]) ++n_edges[{k, at}];
   }
-  // An edge along an axis lies in two such planes: it is assigned to the plane with more edges.
+  // An edge along an axis lies in two such planes. It is assigned to the plane that contains more edges.
   std::map<std::pair<std::size_t, double>, BorderPlane> planes;
   for (const auto& [a, b] : border) {
     std::optional<std::pair<std::size_t, double>> best;
@@ -89,7 +94,7 @@ std::vector<BorderPlane> border_planes(const TriMesh& wall, const Topology& topo
   return found;
 }
 
-/// A sheet of n x m cells behind the chain's n edges.
+/// Makes a sheet of n x m cells behind the n edges of a chain.
 class SheetMaker {
  public:
   SheetMaker(const WakeSheet& wake, const Vec3& stream, double raise, const TrailingEdge& chain, const Column<VertexId, VertexId>& partner, SheetsOnWall& made,
@@ -105,8 +110,8 @@ class SheetMaker {
         topology_(wall, context),
         tree_(wall, context) {}
 
-  /// \return true if a sheet was made. There is none behind a trailing edge whose sheet would lie in a plane in which the wall ends (the half of a fin in the
-  /// plane of symmetry); a warning reports this
+  /// \return true if a sheet was made. No sheet is made if it would lie in a plane in which the wall ends (such as the half of a fin in the plane of symmetry).
+  /// A warning reports this
   bool make() {
     shape();
     if (is_in_border_plane()) return false;
@@ -129,7 +134,7 @@ class SheetMaker {
 
   // ---- Shape ------------------------------------------------------------------------------------------------------------------------------
 
-  /// Returns the axis whose coordinate is constant along the border of the wall at the end of the chain; nothing if the chain ends inside the wall.
+  /// Returns the axis whose coordinate is constant along the border of the wall at the end of the chain. Returns nothing if the chain ends inside the wall.
   std::optional<std::size_t> border_axis(VertexId v) const {
     std::vector<Point> ends;
     for (const HalfedgeId h : topology_.outgoing(v)) {
@@ -182,7 +187,7 @@ class SheetMaker {
     if (!chain_.is_loop) spread_lines();
   }
 
-  /// Returns true if the chain's ends are images of each other on two periodic sides. \throws if the image of an end is elsewhere
+  /// Returns true if the ends of the chain are images of each other on two periodic sides. \throws if the image of an end is at another location
   bool is_from_side_to_side() const {
     if (chain_.is_loop) return false;
     const VertexId first = edge_vertex(0), last = edge_vertex(n_cells_);
@@ -194,7 +199,7 @@ class SheetMaker {
   }
   VertexId partner_of(VertexId v) const { return v.index() < partner_.size() ? partner_[v] : VertexId(); }
 
-  /// Gives the lines at both ends the same shape, their mean.
+  /// Gives the lines at both ends the same shape, which is their mean.
   void equalise_ends() {
     std::vector<Point>&first = points_[0], &last = points_[n_cells_];
     for (std::size_t j = 1; j < first.size(); ++j) {
@@ -204,8 +209,8 @@ class SheetMaker {
     }
   }
 
-  /// Turns normals into directions: averages along the trailing edge, so that a round tip does not turn the last lines, without a component along the edge, so
-  /// that lines do not cross.
+  /// Turns normals into directions. They are averaged along the trailing edge, so that a round tip does not turn the last lines. Their component along the edge
+  /// is removed, so that lines do not cross.
   void even_out(std::vector<Vec3>& normals) const {
     for (Vec3& normal : normals) normal = normalized(normal);
     const std::vector<Vec3> given = normals;
@@ -230,13 +235,13 @@ class SheetMaker {
     }
   }
 
-  /// Distributes lines evenly. Short edges across the stream at the trailing edge (near a tip) are not needed behind it: along each row, lines become
-  /// equidistant within k_spread chords, with a sideways shift of at most k_spread_slope of their distance.
+  /// Distributes lines evenly. Short edges across the stream at the trailing edge (near a tip) are not needed behind it. Along each row, lines therefore become
+  /// equidistant within k_spread chords. The sideways shift of a line is at most k_spread_slope of the distance along it.
   void spread_lines() {
     for (std::size_t j = 1; j <= n_rows(); ++j) {
       std::vector<Point> row;
       std::vector<double> at = {0.0};
-      double way = 0.0, metres = 0.0;  // distance over the chord; distance in metres
+      double way = 0.0, metres = 0.0;  // distance along the line, in chords and in metres
       for (std::size_t i = 0; i < n_lines(); ++i) {
         row.push_back(points_[i][j]);
         if (i > 0) at.push_back(at.back() + distance(row[i - 1], row[i]));
@@ -254,7 +259,7 @@ class SheetMaker {
     }
   }
 
-  /// Returns the stations as shares of the length, ascending from 0 to 1; the same for all lines.
+  /// Returns the stations as fractions of the length, ascending from 0 to 1. They are the same for all lines.
   std::vector<double> stations(const std::vector<double>& first) const {
     const auto mean = [](const std::vector<double>& values) { return std::accumulate(values.begin(), values.end(), 0.0) / static_cast<double>(values.size()); };
     const double length = wake_.length * mean(chords_), across = mean(spacing_);
@@ -293,7 +298,7 @@ class SheetMaker {
     return points;
   }
 
-  /// Returns true if most of the lines run through such a plane.
+  /// Returns true if most lines run inside such a plane.
   bool is_in_border_plane() {
     planes_ = border_planes(wall_, topology_);
     for (const BorderPlane& plane : planes_) {
@@ -312,7 +317,7 @@ class SheetMaker {
   std::size_t n_rows() const { return points_.front().size() - 1; }
   bool is_kept(std::size_t i, std::size_t j) const { return j < kept_[i]; }
 
-  /// Returns true if no wall is near a location on a line, except the trailing edge where the line starts.
+  /// Returns true if no wall is near a location on a line. The trailing edge where the line starts is ignored.
   bool has_room(std::size_t i, const Point& p, double way) const {
     const double reach = std::min(k_clear_angle * way, spacing_[line(i)]);
     return !tree_.nearest(p, reach).triangle.is_valid();
@@ -329,7 +334,7 @@ class SheetMaker {
     return true;
   }
 
-  /// Ends each column of cells where there is no space; then removes parts that are too narrow.
+  /// Ends each column of cells where there is no space. Then removes parts that are too narrow.
   void keep_cells() {
     kept_.assign(n_cells_, 0);
     for (std::size_t i = 0; i < n_cells_; ++i)
@@ -357,7 +362,7 @@ class SheetMaker {
            "a wall is in the way: leave the patch of this trailing edge out of the wake, or mesh the wing with shorter edges", point(n_cells_ / 2, 0));
   }
 
-  /// Returns true if a vertex of the grid has a base vertex with two growth lines: inside the sheet, or on the wall's border.
+  /// Returns true if a vertex of the grid has separate growth lines on both sides, that is, if it lies inside the sheet or on the border of the wall.
   bool is_inside(std::size_t i, std::size_t j) const {
     const bool has_left = chain_.is_loop || i > 0, has_right = chain_.is_loop || i < n_cells_;
     if ((!has_left || !has_right) && !is_at_border(i)) return false;
@@ -372,7 +377,7 @@ class SheetMaker {
     return std::ranges::any_of(topology_.outgoing(v), [&](HalfedgeId h) { return topology_.is_boundary(h) || topology_.is_boundary(previous(h)); });
   }
 
-  /// Checks the first `n` cells of a column: each triangle has an inner vertex, and no edge between two cells joins two boundary vertices.
+  /// Checks the first `n` cells of a column: each triangle must have an inner vertex, and no edge between two cells may join two boundary vertices.
   bool is_sound(std::size_t i, std::size_t n) const {
     for (std::size_t j = 0; j < n; ++j) {
       const bool a = is_inside(i, j), b = is_inside(i + 1, j), c = is_inside(i + 1, j + 1), d = is_inside(i, j + 1);
@@ -387,7 +392,7 @@ class SheetMaker {
     }
     return true;
   }
-  /// Returns true if a cell (a, b, c, d) may be cut along a-c, or b-d.
+  /// Returns true if a cell (a, b, c, d) may be cut along a-c (`is_first`) or along b-d.
   static bool has_diagonal(const std::array<bool, 4>& inside, bool is_first) {
     const auto [a, b, c, d] = inside;
     return is_first ? a || c : b || d;
@@ -395,7 +400,7 @@ class SheetMaker {
 
   // ---- Additions to the wall --------------------------------------------------------------------------------------------------------------
 
-  /// Unit normal of the left side at a vertex of the grid.
+  /// Returns the unit normal of the left side at a vertex of the grid.
   Vec3 normal_at(std::size_t i, std::size_t j) const {
     Vec3 sum;
     for (std::size_t column = 0; column < n_cells_; ++column) {
@@ -406,7 +411,7 @@ class SheetMaker {
     return normalized(sum);
   }
 
-  /// Numbers the vertices of both sides, the left side's first.
+  /// Numbers the vertices of both sides; those of the left side come first.
   void number() {
     sides_.assign(n_lines(), std::vector<std::array<VertexId, 2>>(n_rows() + 1));
     for (std::size_t i = 0; i < n_lines(); ++i)
@@ -420,7 +425,7 @@ class SheetMaker {
         else made_.sheets.rims.push_back(sides[0]);
       }
   }
-  /// Vertices of both sides on the trailing edge; the existing vertex where no layers continue there. \pre row 0 is numbered before the others
+  /// Returns the vertices of both sides on the trailing edge; the existing vertex if no layers continue there. \pre row 0 is numbered before the other rows
   std::array<VertexId, 2> start_of(std::size_t i) const {
     const std::array<VertexId, 2>& sides = sides_[i][0];
     return sides[0].is_valid() ? sides : std::array<VertexId, 2>{edge_vertex(i), edge_vertex(i)};
@@ -431,11 +436,11 @@ class SheetMaker {
     return false;
   }
 
-  /// Triangles to the right of the chain at one of its vertices.
+  /// Returns the triangles to the right of the chain at one of its vertices.
   std::vector<TriangleId> on_the_right(std::size_t i) const {
     const bool has_back = chain_.is_loop || i > 0, has_ahead = chain_.is_loop || i < n_cells_;
     std::vector<TriangleId> triangles;
-    if (!has_back) {  // clockwise from the edge ahead to the border
+    if (!has_back) {  // the triangles are visited clockwise from the edge ahead to the border
       for (HalfedgeId h = topology_.twin(chain_.edges[i]); h.is_valid(); h = topology_.twin(next(h))) triangles.push_back(triangle_of(h));
       return triangles;
     }
@@ -445,7 +450,7 @@ class SheetMaker {
     return triangles;
   }
 
-  /// Separates both sides by a small offset; triangles of the wing on the right get their own vertices.
+  /// Separates both sides by a small offset. The triangles of the wing on the right get their own vertices.
   void open_edge() {
     std::vector<std::pair<VertexId, Vec3>> moved;
     for (std::size_t i = 0; i < n_lines(); ++i)
@@ -485,7 +490,7 @@ class SheetMaker {
         }
       }
   }
-  /// \p t: orientation of the right side
+  /// \p t has the orientation of the right side
   void add_triangle(TriangleVertices t, std::size_t side, TriangleId source) {
     if (side == 0) std::swap(t[1], t[2]);
     wall_.triangles.push_back(t);
@@ -497,7 +502,7 @@ class SheetMaker {
   const Vec3 stream_;
   double raise_;  ///< m
   const TrailingEdge& chain_;
-  const Column<VertexId, VertexId>& partner_;  ///< partners of the wall's given vertices, or empty
+  const Column<VertexId, VertexId>& partner_;  ///< partners of the given vertices of the wall, or empty
   SheetsOnWall& made_;
   TriMesh& wall_;
   const RunContext& context_;
@@ -505,15 +510,15 @@ class SheetMaker {
   TriangleTree tree_;  ///< tree of the wall without this sheet
   std::vector<BorderPlane> planes_;
   std::size_t n_cells_ = 0;
-  bool has_images_ = false;                 ///< is_from_side_to_side()
-  std::vector<double> chords_, spacing_;    ///< m, for each line: local chord, edge across the stream
-  std::vector<std::vector<Point>> points_;  ///< for each line, from the trailing edge on
+  bool has_images_ = false;                 ///< result of is_from_side_to_side()
+  std::vector<double> chords_, spacing_;    ///< m, for each line: local chord, and edge across the stream
+  std::vector<std::vector<Point>> points_;  ///< points of each line, starting at the trailing edge
   std::vector<std::size_t> kept_;           ///< number of cells in each column
   std::vector<std::vector<std::array<VertexId, 2>>> sides_;
 };
 
-/// Removes the short edges of a round tip from a chain: the sheet's triangles behind them would be slivers, as its first edges along the stream are as long
-/// there as elsewhere.
+/// Removes the short edges of a round tip from a chain. The first edges of a sheet along the stream are as long there as elsewhere, so the triangles behind the
+/// short edges would be slivers.
 TrailingEdge without_short_ends(const TriMesh& wall, const Topology& topology, const Vec3& stream, TrailingEdge chain) {
   if (chain.is_loop) return chain;
   const auto length = [&](HalfedgeId h) { return distance(wall.points[topology.to(h)], wall.points[topology.from(h)]); };
@@ -567,7 +572,7 @@ Vec3 stream_of(const TriMesh& boundary) {
     sum += area_vector(a, b, c);
     area += norm(area_vector(a, b, c));
   }
-  constexpr double k_one_way = 0.5;  // share of the area: below it, there is no stream direction
+  constexpr double k_one_way = 0.5;  // fraction of the area: if the mean normal is shorter, the stream has no direction
   return norm(sum) > k_one_way * area ? normalized(sum) : k_along_x;
 }
 
@@ -591,7 +596,7 @@ SheetsOnWall add_wake_sheets(std::span<const WakeSheet> wakes, const Vec3& of_do
                              "\" have no trailing edge: no three edges in a row at which the wall turns by more than 120 degrees and faces downstream, or "
                              "above a base narrower than a tenth of the chord",
                          {}, "check the direction of the free stream");
-    // Before the wall is changed: makers double its vertices, but half-edges stay valid.
+    // This is done before the wall is changed. Making sheets doubles vertices, but half-edges stay valid.
     for (TrailingEdge& chain : chains) chain = without_short_ends(wall, topology, stream, std::move(chain));
     for (const TrailingEdge& chain : chains) n_chains += SheetMaker(wake, stream, raise, chain, partner, made, wall, context).make() ? 1 : 0;
   }

@@ -18,9 +18,9 @@
 namespace sterna::volmesh {
 namespace {
 
-constexpr double k_wanted_last = 0.5;          ///< share of the height of a regular tetrahedron on the triangle
-constexpr double k_area_share = 0.9;           ///< share of the area
-constexpr int k_most_automatic_layers = 1000;  ///< as the range of the option
+constexpr double k_wanted_last = 0.5;          ///< height of the last cell, as a fraction of the height of a regular tetrahedron on the triangle
+constexpr double k_area_share = 0.9;           ///< fraction of the wall area on which this height must be reached
+constexpr int k_most_automatic_layers = 1000;  ///< upper limit of the option layers
 constexpr int k_too_many = k_most_automatic_layers + 1;
 
 struct WantedLayers {
@@ -35,7 +35,7 @@ int layers_to_height(double h0, double growth, double last) {
   return layers <= k_most_automatic_layers ? static_cast<int>(layers) : k_too_many;
 }
 
-/// Returns the least number that is sufficient on k_area_share of the area.
+/// Returns the smallest number of layers that is sufficient on k_area_share of the area.
 int enough(std::vector<WantedLayers>& wanted) {
   std::ranges::sort(wanted, {}, [](const WantedLayers& w) { return std::pair(w.layers, w.area); });
   double all = 0.0, below = 0.0;
@@ -63,7 +63,7 @@ int automatic_layers(const TriMesh& surface, const MeshCase& options, const RunC
       h0 = std::max({options.first_heights->at(p[0]), options.first_heights->at(p[1]), options.first_heights->at(p[2])});
     of_triangle[i] = {layers_to_height(h0, patch.max_growth, k_wanted_last * k_regular_height * layer_edge_of(std::sqrt(k_equilateral * area), edge)), area};
   });
-  std::map<std::pair<double, double>, std::vector<WantedLayers>> groups;  // by first height and growth
+  std::map<std::pair<double, double>, std::vector<WantedLayers>> groups;  // groups of walls, keyed by first height and growth
   for (const TriangleId t : surface.triangles.ids())
     if (const PatchLayers& patch = asked[surface.triangle_patch[t]]; is_open(patch))
       groups[{patch.first_height, patch.max_growth}].push_back(of_triangle[t.index()]);

@@ -5,9 +5,9 @@
 namespace sterna::volmesh {
 namespace {
 
-/// Least number of tasks of a search: enough to balance them over many threads.
+/// Smallest number of tasks of a search, enough to balance them over many threads.
 constexpr std::size_t k_tasks = 1024;
-/// As in BoxTree::for_each_overlap: median splits of at most 2^31 items.
+/// Size of the stack, as in BoxTree::for_each_overlap: median splits of at most 2^31 items.
 constexpr int k_pair_stack = 64;
 
 }  // namespace

@@ -1,5 +1,5 @@
-// Overlapping pairs of boxes that move in small steps. The topology of the hierarchy is fixed, boxes are refitted, and a search visits only pairs with
-// relevant roles. A search descends two hierarchies together, or one hierarchy against itself.
+// Finds overlapping pairs of boxes that move in small steps. The topology of the hierarchy is fixed, and boxes are refitted. A search visits only pairs with
+// relevant roles. It descends two hierarchies together, or one hierarchy against itself.
 #pragma once
 
 #include <array>
@@ -13,7 +13,8 @@
 
 namespace sterna::volmesh {
 
-/// Box in single precision, which halves the memory. Rounding is monotone, so boxes that overlap still overlap after rounding. Empty until a point is added.
+/// Box in single precision, which halves the memory. Rounding is monotone, so boxes that overlap still overlap after rounding. The box is empty until a point
+/// is added.
 struct RoundedBox {
   std::array<float, 3> min = {k_far, k_far, k_far};
   std::array<float, 3> max = {-k_far, -k_far, -k_far};
@@ -34,19 +35,19 @@ struct RoundedBox {
 
   static constexpr float k_far = std::numeric_limits<float>::infinity();
 };
-/// Returns true if two closed boxes overlap. Free of branches, because the result is hard to predict.
+/// Returns true if two closed boxes overlap. The code has no branches, because the result is hard to predict.
 inline bool overlap(const RoundedBox& a, const RoundedBox& b) {
   return ((a.min[0] <= b.max[0]) & (b.min[0] <= a.max[0]) & (a.min[1] <= b.max[1]) & (b.min[1] <= a.max[1]) & (a.min[2] <= b.max[2]) &
           (b.min[2] <= a.max[2])) != 0;
 }
 
-/// Topology of a binary hierarchy over the triangles of a mesh: the triangles of a leaf are contiguous.
+/// Topology of a binary hierarchy over the triangles of a mesh. The triangles of a leaf are contiguous.
 struct BoxHierarchy {
   struct Node {
-    std::uint32_t first = 0;  ///< leaf: first position; inner: left child, the right child follows
-    std::uint32_t count = 0;  ///< leaf: number of positions; inner: 0
+    std::uint32_t first = 0;  ///< leaf: first position; inner node: left child, after which the right child follows
+    std::uint32_t count = 0;  ///< leaf: number of positions; inner node: 0
   };
-  std::vector<Node> nodes;               ///< the root first, children after their parents
+  std::vector<Node> nodes;               ///< nodes, root first, children after their parents
   std::vector<std::size_t> level_begin;  ///< nodes of level l: [level_begin[l], level_begin[l + 1])
   std::vector<std::uint32_t> item_at;    ///< triangle at each position
 
@@ -54,27 +55,28 @@ struct BoxHierarchy {
   BoxHierarchy(const TriMesh& mesh, const RunContext& context);
 };
 
-/// Role of an item in a search: a pair is tested if one item is a seeker and the other a partner.
+/// Role of an item in a search. A pair is tested if one item is a seeker and the other a partner.
 using Role = std::uint8_t;
 inline constexpr Role k_no_role = 0, k_seeker = 1, k_partner = 2, k_both_roles = 3;
 inline bool is_wanted(Role a, Role b) { return (((a & k_seeker) && (b & k_partner)) || ((a & k_partner) && (b & k_seeker))); }
 
-/// Boxes of the positions and nodes of a hierarchy, and their roles in the next search: one common role, or one role per position and node.
+/// Boxes of the positions and nodes of a hierarchy, and their roles in the next search. There is either one common role, or one role for each position and
+/// node.
 struct FittedBoxes {
   std::vector<RoundedBox> place, node;
   Role common_role = k_no_role;
-  std::vector<Role> place_role, node_role;  ///< empty: common_role; the role of a node combines the roles of its positions
+  std::vector<Role> place_role, node_role;  ///< empty: common_role applies; the role of a node combines the roles of its positions
 
   /// Computes the boxes of all nodes from the boxes of the positions.
   void fit(const BoxHierarchy& tree, const RunContext& context);
-  /// Computes the roles of the nodes from the roles of the positions; with `refit`, also the boxes of nodes that have a role.
+  /// Computes the roles of the nodes from the roles of the positions. With `refit`, also computes the boxes of nodes that have a role.
   void spread_roles(const BoxHierarchy& tree, bool refit, const RunContext& context);
 
   Role role_of_place(std::size_t i) const { return place_role.empty() ? common_role : place_role[i]; }
   Role role_of_node(std::size_t i) const { return node_role.empty() ? common_role : node_role[i]; }
 };
 
-/// Appends to `found`, in the order of their positions, the items for which the union of the item's boxes in `a` and in `b` overlaps `box`.
+/// Appends items to `found`, in the order of their positions. An item is appended if the union of its boxes in `a` and in `b` overlaps `box`.
 void find_overlaps(const BoxHierarchy& tree, const FittedBoxes& a, const FittedBoxes& b, const RoundedBox& box, std::vector<std::uint32_t>& found);
 
 /// One side of a search: a hierarchy with its boxes.
@@ -86,13 +88,13 @@ struct SearchSide {
 namespace detail {
 
 using NodePair = std::array<std::uint32_t, 2>;
-/// Returns pairs of nodes that together cover the whole search, as tasks: their number does not depend on the number of threads.
+/// Returns pairs of nodes that together cover the whole search. Each pair is a task; the number of tasks does not depend on the number of threads.
 std::vector<NodePair> split_search(const SearchSide& a, const SearchSide& b);
 /// Returns false if the pair of nodes contains no pair of positions to test.
 inline bool is_worthwhile(const SearchSide& a, const SearchSide& b, const NodePair& pair) {
   return is_wanted(a.boxes->role_of_node(pair[0]), b.boxes->role_of_node(pair[1])) && overlap(a.boxes->node[pair[0]], b.boxes->node[pair[1]]);
 }
-/// Appends the pairs of children into which a pair is split; returns false if both nodes are leaves.
+/// Appends the pairs of children into which a pair is split. Returns false if both nodes are leaves.
 inline bool split_pair(const SearchSide& a, const SearchSide& b, const NodePair& pair, std::vector<NodePair>& children) {
   const auto [first_a, count_a] = a.tree->nodes[pair[0]];
   const auto [first_b, count_b] = b.tree->nodes[pair[1]];
@@ -109,8 +111,9 @@ inline bool split_pair(const SearchSide& a, const SearchSide& b, const NodePair&
 
 }  // namespace detail
 
-/// Calls test(item_a, item_b, partial) once for every pair with matching roles and overlapping boxes (also for an item with itself, if a and b are the same
-/// boxes), with one Partial per task. Returns all partial results, joined by Partial::append in an order that does not depend on threads. Parallel.
+/// Calls test(item_a, item_b, partial) once for every pair with matching roles and overlapping boxes. If a and b are the same boxes, an item is also paired
+/// with itself. There is one Partial per task. Returns all partial results, joined by Partial::append in an order that does not depend on the number of
+/// threads. Parallel.
 template <class Partial, class Test>
 Partial search_pairs(const SearchSide& a, const SearchSide& b, const Test& test, const RunContext& context) {
   const std::vector<detail::NodePair> tasks = detail::split_search(a, b);

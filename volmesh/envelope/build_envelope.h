@@ -8,8 +8,8 @@
 namespace sterna::volmesh {
 
 /// Builds the envelope of the wall.
-/// \post every macro-element is valid with margin (or collapsed), and the envelope is free of self-intersection; if the Collider has an outer boundary, the
-/// envelope is clear of the outer boundary too
+/// \post every macro-element is valid with margin or collapsed; the envelope is free of self-intersection, and clear of the outer boundary if the Collider has
+/// one
 Envelope build_envelope(const LayerBase& base, const EnvelopeOptions& options, Collider& collider, const RunContext& context);
 Envelope build_envelope(const LayerBase& base, const EnvelopeOptions& options, const RunContext& context);
 

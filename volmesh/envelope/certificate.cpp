@@ -13,7 +13,7 @@ namespace {
 
 Point centre(const std::array<Point, 3>& p) { return (p[0] + p[1] + p[2]) / 3.0; }
 
-/// Returns the smallest Jacobian over the corners of a tet, scaled by the three edges there.
+/// Returns the smallest Jacobian over the corners of a tetrahedron, scaled by the three edges at the corner.
 double tet_quality(const std::array<Point, 4>& p) {
   const double volume6 = 6.0 * tet_volume(p[0], p[1], p[2], p[3]);
   double worst = 1.0;
@@ -33,7 +33,7 @@ struct MacroVerdict {
   const char* kind = "wedge";
 };
 
-/// Tests a macro-element by the exact test of the cell type that results from its collapsed corners, without any margin.
+/// Tests a macro-element. Uses the exact test of the cell type that results from its collapsed corners, without any margin.
 MacroVerdict judge(const LayerBase& base, const EnvelopeShape& shape, TriangleId t) {
   const TriangleVertices& v = base.wall.triangles[t];
   std::array<Point, 3> low, top;
@@ -57,7 +57,7 @@ MacroVerdict judge(const LayerBase& base, const EnvelopeShape& shape, TriangleId
     const std::array<Point, 4> p = {low[a], low[b], low[c], top[a]};
     return {.is_valid = is_tet_valid(p), .quality = tet_quality(p), .kind = "tet"};
   }
-  // Base b, top b, top c, c; apex a.
+  // The base has the corners b, top b, top c and c; the apex is a.
   const std::array<Point, 5> p = {low[b], top[b], top[c], low[c], low[a]};
   double quality = 1.0;
   for (std::size_t k = 0; k < 4; ++k) quality = std::min(quality, tet_quality({p[k], p[(k + 1) % 4], p[(k + 3) % 4], p[4]}));

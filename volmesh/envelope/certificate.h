@@ -1,4 +1,4 @@
-// Certificate of an envelope after all changes: results of exact tests, with measured minima.
+// Certificate of an envelope after all changes: results of the exact tests, and the measured minima.
 #pragma once
 
 #include <cstdint>
@@ -8,24 +8,26 @@
 
 namespace sterna::volmesh {
 
-/// Quality of the worst element: 1 for a right prism or the corner of a cube, positive iff valid (up to rounding).
+/// Quality of the worst element: 1 for a right prism or the corner of a cube. It is positive if and only if the element is valid (except for rounding).
 struct WorstElement {
   double quality = 1.0;
   Point place;
-  std::string what;  ///< element and wall triangle
+  std::string what;  ///< type of the element, and its wall triangle
 };
 
 struct EnvelopeCertificate {
-  /// Envelope, sides, wall and outer boundary: triangles tested against each other, pairs with overlapping boxes (tested exactly), pairs that cross.
+  /// Numbers of tests between envelope, sides, wall and outer boundary: triangles that were tested against each other, pairs with overlapping boxes (tested
+  /// exactly), and pairs that cross.
   std::int64_t n_triangles = 0;
   std::int64_t n_pairs = 0;
   std::int64_t n_crossings = 0;
-  std::int64_t n_swallowings = 0;  ///< parts of the boundary within the layer of another part
-  /// Macro-elements tested by the exact wedge, pyramid or tet test (elements without height are no cells), and the number of failures.
+  std::int64_t n_swallowings = 0;  ///< number of parts of the boundary that lie within the layer of another part
+  /// Number of macro-elements tested by the exact wedge, pyramid or tetrahedron test, and number of failures. Elements without height are no cells and are not
+  /// tested.
   std::int64_t n_macro_elements = 0;
   std::int64_t n_invalid_macro_elements = 0;
   WorstElement worst_macro_element;
-  /// Cells of the extruded layer, counted in the same way; filled by the driver after extrusion.
+  /// The same numbers for cells of the extruded layer. The driver sets them after the extrusion.
   std::int64_t n_layer_cells = 0;
   std::int64_t n_invalid_layer_cells = 0;
   WorstElement worst_layer_cell;
@@ -37,13 +39,13 @@ struct EnvelopeCertificate {
 /// \throws Error(self_intersection) with locations and geometry if the wall crosses itself or the outer boundary.
 std::int64_t require_clear_input(Collider& collider, const RunContext& context);
 
-/// Tests the envelope against itself, sides, wall and outer boundary, and tests every macro-element. Counts failures, does not throw.
+/// Tests the envelope against itself, sides, wall and outer boundary, and tests every macro-element. Counts failures, but does not throw.
 EnvelopeCertificate certify_envelope(const LayerBase& base, Collider& collider, const EnvelopeShape& envelope, const RunContext& context);
 
-/// \throws Error(envelope_failed) with counts and the worst locations unless everything is proved.
+/// \throws Error(envelope_failed) with counts and the worst locations unless all tests have passed
 void require_proved(const EnvelopeCertificate& certificate);
 
-/// Returns one line, e.g. "proved: 316420 boundary triangles clear of each other (1.2e6 pairs), 79218 macro-elements valid (worst 0.031 at (...)), ...".
+/// Returns one line, such as "proved: 316420 boundary triangles clear of each other (1.2e6 pairs), 79218 macro-elements valid (worst 0.031 at (...)), ...".
 std::string to_text(const EnvelopeCertificate& certificate);
 
 }  // namespace sterna::volmesh

@@ -13,7 +13,7 @@ constexpr double k_ridge_bend_limit = 60.0 * std::numbers::pi / 180.0;  ///< doc
 
 Vec3 mirrored(const Vec3& v, const Vec3& normal) { return v - (2.0 * dot(v, normal)) * normal; }
 
-/// The first two feature edges at a vertex, including the mirrored edges, and the number of all.
+/// The first two feature edges at a vertex, and the number of all feature edges. Mirrored edges are included.
 struct FeatureEdges {
   std::size_t n = 0;
   std::array<Vec3, 2> direction;
@@ -34,8 +34,8 @@ struct FeatureEdges {
   }
 };
 
-/// Returns the normal of the triangle beyond a boundary edge if the body is mirrored at the surface that holds the edge; the normal of the edge's triangle if
-/// no surface does.
+/// Returns the normal of the triangle beyond a boundary edge. If a constraint surface contains the edge, that triangle is the mirror image of the edge's own
+/// triangle. Otherwise returns the normal of the edge's own triangle.
 Vec3 normal_beyond(const LayerBase& base, HalfedgeId h) {
   const Vec3& own = base.unit_normal[triangle_of(h)];
   const VertexId from = base.topology.from(h), to = base.topology.to(h);

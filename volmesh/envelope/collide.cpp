@@ -7,7 +7,7 @@
 namespace sterna::volmesh {
 namespace {
 
-constexpr int k_share_bisections = 10;  ///< halvings: 0.1 % of the height
+constexpr int k_share_bisections = 10;  ///< number of halvings; the result is within 0.1 % of the height
 
 FittedBoxes fixed_boxes(const TriMesh& mesh, const BoxHierarchy& tree, const RunContext& context) {
   FittedBoxes boxes;
@@ -109,7 +109,7 @@ bool Collider::is_held(const BoundaryTriangle& moving, std::uint32_t outer_trian
   return links_ && std::ranges::any_of(moving_vertices(moving), [&](VertexId v) { return holds(outer_triangle, v); });
 }
 
-/// Calls f for the existing triangles of top and sides that belong to a wall triangle.
+/// Calls f for the existing triangles of top and sides over a wall triangle.
 template <class F>
 void Collider::for_each_moving(TriangleId t, const F& f) const {
   const TriangleVertices& v = base_.wall.triangles[t];
@@ -124,7 +124,7 @@ void Collider::for_each_moving(TriangleId t, const F& f) const {
   }
 }
 
-/// Sets the roles of the top's positions from the roles of the vertices.
+/// Sets the roles of the positions in the top's hierarchy from the roles of the vertices.
 template <class RoleOf>
 void Collider::assign_roles(const RoleOf& role_of, bool refit, const RunContext& context) {
   top_.place_role.resize(tree_.item_at.size());
@@ -162,7 +162,7 @@ void Collider::move_top(const EnvelopeShape& shape, const RunContext& context, d
 
 std::vector<BoundaryCrossing> Collider::crossings(const RunContext& context, const std::vector<VertexId>* around,
                                                   const Column<VertexId, std::uint8_t>* against) {
-  // Roles belong to wall triangles: sides are tested along with their top, at little cost.
+  // Roles belong to wall triangles. Sides are tested together with their top triangle, at little cost.
   if (around) {
     Column<VertexId, Role> role(base_.wall.n_vertices(), against ? k_no_role : k_partner);
     for (const VertexId v : *around) role[v] |= k_seeker;
@@ -237,7 +237,7 @@ std::vector<BoundaryCrossing> Collider::fixed_crossings(const RunContext& contex
 
 double Collider::clear_share(const BoundaryCrossing& pair, const EnvelopeShape& shape) const {
   const std::uint32_t n = static_cast<std::uint32_t>(base_.wall.n_vertices());
-  // The points of the pair get local numbers; a shared point has one number.
+  // The points of the pair get local numbers. A shared point has one number.
   std::array<std::uint32_t, 6> known{};
   std::array<Vec3, 6> points{};
   std::array<Corners, 2> triangle{};
@@ -253,7 +253,7 @@ double Collider::clear_share(const BoundaryCrossing& pair, const EnvelopeShape& 
       known[n_known++] = own[k];
     }
   }
-  // The height of a vertex shared by both triangles is cut relative to the lower of the two.
+  // The height of a vertex that both triangles share is cut relative to the lower of the two.
   const std::array<double, 2> highest = {tallest(pair[0], shape), tallest(pair[1], shape)};
   std::array<double, 6> reference{};
   for (std::size_t i = 0; i < 2; ++i)

@@ -1,8 +1,10 @@
-// Problem: to which plane does each boundary vertex belong? A boundary edge along x may lie in a plane of constant y and in a plane of constant z.
-// 1. candidates_of_edges: planes through both ends of an edge, but not through the rest of its triangle (the body does not end on the plane of a box face);
-// 2. find_planes: of an edge's candidates, the plane that contains the largest length of all boundary edges; the result contains every plane chosen by an
-// edge;
-// 3. constraints_of_planes: vertices get the planes of their edges.
+// Determines the plane to which each boundary vertex belongs. This is not obvious: a boundary edge along x may lie in a plane of constant y and in a plane of
+// constant z.
+// 1. candidates_of_edges: finds planes that contain both ends of an edge, but not the third corner of its triangle (because the body does not end on the plane
+// of a box face).
+// 2. find_planes: selects for each edge the candidate plane that contains the largest length of boundary edges. The result contains every plane that an edge
+// selects.
+// 3. constraints_of_planes: assigns to each vertex the planes of its edges.
 #include "volmesh/envelope/constrain_rims.h"
 
 #include <algorithm>
@@ -15,7 +17,7 @@
 namespace sterna::volmesh {
 namespace {
 
-constexpr double k_parallel_sine = 1e-6;  ///< planes at a smaller angle have no computable line of intersection
+constexpr double k_parallel_sine = 1e-6;  ///< the line of intersection of planes at a smaller angle cannot be computed
 constexpr std::string_view k_hint =
     "a wall may end only in planes, as a half model at its symmetry plane x, y or z = constant; close the other open boundaries, or move their vertices into "
     "the plane";
@@ -34,7 +36,7 @@ std::vector<BorderEdge> boundary_edges(const TriMesh& wall, const Topology& topo
   return edges;
 }
 
-/// Returns the number of closed polygons of the boundary; edges that share a vertex belong to the same polygon.
+/// Returns the number of closed polygons of the boundary. Edges that share a vertex belong to the same polygon.
 std::size_t count_rims(const TriMesh& wall, const std::vector<BorderEdge>& edges) {
   DisjointSets rims(wall.n_vertices());
   std::size_t n = 0;
@@ -110,7 +112,7 @@ std::vector<ConstraintPlane> find_planes(const TriMesh& wall, const std::vector<
   std::vector<ConstraintPlane> planes;
   for (std::size_t k = 0; k < candidates.size(); ++k) {
     if (!is_chosen[k]) continue;
-    // The most frequent coordinate of the plane's vertices: snapping then moves the fewest vertices.
+    // The most frequent coordinate of the plane's vertices is used, because snapping then moves the fewest vertices.
     std::vector<double> values;
     for (const BorderEdge& e : edges) {
       const double x = wall.points[e.from][candidates[k].axis];
@@ -160,7 +162,7 @@ Constraints constraints_of_planes(const TriMesh& wall, const Topology& topology,
   const std::vector<BorderEdge> edges = boundary_edges(wall, topology);
   Constraints result;
   if (edges.empty()) return result;
-  // Detected planes are within k_rim_tolerance of their lowest vertex, and given planes may lie on either side of their vertices.
+  // Detected planes are within k_rim_tolerance of their lowest vertex. Given planes may lie on either side of their vertices.
   const double tolerance = 2.0 * k_rim_tolerance * body_length(wall);
   result.surfaces = facing_wall(wall, edges, planes, tolerance);
   result.vertex.resize(wall.n_vertices());

@@ -1,4 +1,4 @@
-// Limit of the fold angle of the envelope along an edge, on the side of the fluid: the fold must leave room for tetrahedra.
+// Limit for the fold angle of the envelope along an edge, on the side of the fluid. The fold must leave room for tetrahedra.
 #pragma once
 
 #include <algorithm>
@@ -9,28 +9,28 @@
 
 namespace sterna::volmesh {
 
-/// Corners of the two triangles at an edge: start and end of the edge, third corner of the triangle in which the edge has this direction, third corner of the
-/// other triangle.
+/// Corners of the two triangles at an edge: start and end of the edge, third corner of the triangle that contains the edge in this direction, third corner of
+/// the other triangle.
 using FoldPoints = std::array<Point, 4>;
 
-/// Limits of the angle between the two triangles of the envelope, seen from the fluid (180 degrees where they are coplanar).
+/// Limits of the angle between the two triangles of the envelope, as seen from the fluid (180 degrees if they are coplanar).
 struct FoldLimit {
-  double cos_least = k_usual_cos_least;  ///< cosine of the least angle
-  double range = k_usual_range;          ///< difference of the cosine between the least angle and the angle below which the barrier begins
-  bool is_concave = false;               ///< the wall's triangles rise from each other: the envelope's triangles must not swap sides
+  double cos_least = k_usual_cos_least;  ///< cosine of the smallest allowed angle
+  double range = k_usual_range;          ///< difference between the cosines of the smallest allowed angle and of the angle below which the barrier begins
+  bool is_concave = false;               ///< the triangles of the wall rise from each other, so the envelope's triangles must not swap sides
 
-  static constexpr double k_least_angle = 0.2618;  ///< 15 degrees: a tetrahedron in the fold has no larger angle
-  static constexpr double k_onset_angle = 0.6981;  ///< 40 degrees
+  static constexpr double k_least_angle = 0.2618;  ///< 15 degrees: a tetrahedron in the fold has no larger dihedral angle
+  static constexpr double k_onset_angle = 0.6981;  ///< 40 degrees: the barrier begins below this angle
   static constexpr double k_usual_cos_least = 0.9659258262890683, k_usual_cos_onset = 0.766044443118978;
   static constexpr double k_usual_range = k_usual_cos_least - k_usual_cos_onset;
-  static constexpr double k_share_of_wall = 0.5;  ///< share of the wall's angle, if this angle is less than twice the least one
+  static constexpr double k_share_of_wall = 0.5;  ///< fraction of the wall's angle that is kept, if that angle is less than twice the smallest allowed one
 };
 
-/// Cosine of the angle between the triangles, and whether they rise from each other.
+/// Cosine of the angle between the triangles, and whether the triangles rise from each other.
 struct Fold {
-  Vec3 n1, n2;  ///< normals, with the length of the triangles' doubled areas
+  Vec3 n1, n2;  ///< normals; their lengths are twice the areas of the triangles
   double length1 = 0.0, length2 = 0.0;
-  double cosine = 1.0;  ///< cosine between the normals: -1 where the triangles are folded onto each other
+  double cosine = 1.0;  ///< cosine between the normals; -1 if the triangles are folded onto each other
   bool is_concave = false;
 };
 inline Fold fold_of(const FoldPoints& p) {
@@ -57,7 +57,8 @@ inline FoldLimit fold_limit(const FoldPoints& wall) {
   return limit;
 }
 
-/// Returns the distance from the least angle, 1 where the barrier begins and beyond; not above 0 where the fold is too sharp.
+/// Returns a measure of the distance from the smallest allowed angle. It is 1 if the angle is at least that at which the barrier begins, and zero or negative
+/// if the fold is too sharp.
 inline double fold_slack(const Fold& fold, const FoldLimit& limit) {
   if (fold.cosine > -0.5) return 1.0;
   if (!fold.is_concave) return limit.is_concave && fold.cosine < -FoldLimit::k_usual_cos_onset ? -1.0 : 1.0;

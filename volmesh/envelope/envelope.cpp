@@ -6,12 +6,12 @@
 namespace sterna::volmesh {
 namespace {
 
-/// Least share of the target height: if all growth lines have the same growth, a lower growth line has proportionally lower first cells, beside others of a
-/// hundred times their height.
+/// Smallest fraction of the target height. With the same growth on all growth lines, a lower growth line would have first cells that are lower in proportion,
+/// beside cells of a hundred times their height.
 constexpr double k_least_of_target = 0.01;
-/// Least share of h for the normal height in the growth law (a growth line at 84 degrees to the wall normal).
+/// Lower limit of the normal height used in the growth law, as a fraction of h (a growth line at 84 degrees to the wall normal).
 constexpr double k_min_normal_share = 0.1;
-/// Share of n h0 below which a layer does not justify the cost of its cells (docs/method/envelope.md, "Warp").
+/// Fraction of n h0 below which a layer does not justify the cost of its cells (docs/method/envelope.md, "Warp").
 constexpr double k_min_height_share = 0.2;
 
 }  // namespace

@@ -15,15 +15,15 @@
 namespace sterna::volmesh {
 namespace {
 
-/// Margin above the largest smooth deviation: single precision and scripts that move the wall change angles slightly.
+/// Margin above the largest smooth deviation. Single precision, and scripts that move the wall, change angles slightly.
 constexpr double k_above_smooth = 1.0 * k_degree;
-constexpr std::size_t k_lowest = 20, k_highest = 60;  ///< degrees: smaller deviations occur on any coarse curved surface, larger ones are features on all
-                                                      ///< surfaces
-constexpr std::size_t k_window = 2;                   ///< bins on either side that are counted with a bin: single edges do not end a gap
-/// A window with at most this share of all edges is empty: every surface has some badly shaped triangles.
+/// Degrees: smaller deviations occur on any coarse curved surface, and larger ones are features on all surfaces.
+constexpr std::size_t k_lowest = 20, k_highest = 60;
+constexpr std::size_t k_window = 2;  ///< number of bins on either side that are counted together with a bin, so that single edges do not end a gap
+/// A window with at most this fraction of all edges counts as empty, because every surface has some badly shaped triangles.
 constexpr double k_quiet_share = 1e-3;
 
-using Histogram = std::array<std::int64_t, 181>;  ///< edges per degree of |deviation|
+using Histogram = std::array<std::int64_t, 181>;  ///< number of edges for each degree of |deviation|
 
 Histogram histogram_of(const LayerBase& base, const RunContext& context) {
   return parallel_reduce(
@@ -66,7 +66,7 @@ double middle_of_gap(const LayerBase& base, const RunContext& context) {
     if (end - begin > best_end - best_begin) best_begin = begin, best_end = end;
     begin = end;
   }
-  return 0.5 * static_cast<double>(best_begin + best_end) * k_degree;  // bin i is [i, i + 1) degrees
+  return 0.5 * static_cast<double>(best_begin + best_end) * k_degree;  // bin i covers [i, i + 1) degrees
 }
 
 }  // namespace
@@ -87,7 +87,7 @@ double decide_feature_angle(const LayerBase& base, const EnvelopeOptions& option
       return angle;
     }
     context.debug("the surface mesh turns by " + degrees_text(smooth_angle) +
-                  " where the model is smooth, too much for a feature angle");  // its mesher has warned
+                  " where the model is smooth, too much for a feature angle");  // the surface mesher has already warned of this
   }
   const double angle = middle_of_gap(base, context);
   context.debug("feature angle " + degrees_text(angle) + ", the gap in the histogram of dihedral angles");

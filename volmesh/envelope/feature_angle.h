@@ -1,4 +1,4 @@
-// Angle beyond which an edge is a feature, derived from the surface itself (docs/method/envelope.md, "Feature angle").
+// Angle above which an edge is a feature. It is derived from the surface itself (docs/method/envelope.md, "Feature angle").
 #pragma once
 
 #include "geom/base/run_context.h"
@@ -7,12 +7,13 @@
 
 namespace sterna::volmesh {
 
-/// Returns options.feature_angle or, if automatic, the middle of the widest gap, between 20 and 60 degrees, in the histogram of the edges' dihedral
-/// deviations. Deviations of smooth surfaces end below the gap, features begin above it; without a gap the emptiest part of the histogram is used. Radians.
+/// Returns options.feature_angle in radians. If it is automatic, returns the middle of the widest gap between 20 and 60 degrees in the histogram of the edges'
+/// dihedral deviations. Deviations of smooth surfaces are below the gap, features above it. If there is no gap, the emptiest part of the histogram is used.
 double feature_angle_of(const LayerBase& base, const EnvelopeOptions& options, const RunContext& context);
 
-/// Returns the feature angle of a wall whose largest dihedral deviation at smooth locations may be known (automatic: unknown): in that case the least angle
-/// of at least 20 degrees above this deviation, if there is one up to 60 degrees; otherwise as feature_angle_of(). The log states the criterion that decided.
+/// Returns the feature angle of a wall whose largest dihedral deviation at smooth locations may be known (automatic: unknown). If it is known, the result is
+/// the smallest angle of at least 20 degrees above this deviation, provided that it is not above 60 degrees. Otherwise the result is that of
+/// feature_angle_of(). The log states which criterion was used.
 double decide_feature_angle(const LayerBase& base, const EnvelopeOptions& options, double smooth_angle, const RunContext& context);
 
 }  // namespace sterna::volmesh

@@ -1,4 +1,4 @@
-// Gaps between opposing walls: for each growth line the opposing wall is searched for within the reach of both layers.
+// Gaps between opposing walls. For each growth line the opposing wall is searched within the reach of both layers.
 #include <algorithm>
 #include <cmath>
 
@@ -11,13 +11,14 @@
 namespace sterna::volmesh {
 namespace {
 
-constexpr double k_remaining_edges = k_kept_edges;  ///< number of lengths of the longer local envelope edge that remain between two layers, for tets
-constexpr double k_remaining_share = k_kept_share;  ///< remaining share of a gap that is too narrow for k_remaining_edges
-constexpr double k_gap_opposing_cosine = 0.7;       ///< walls within 45 degrees of facing the growth line oppose it; all others are left to the exact test
+/// Number of edges (the longer local envelope edge) for which room remains between two layers, for tetrahedra.
+constexpr double k_remaining_edges = k_kept_edges;
+constexpr double k_remaining_share = k_kept_share;  ///< fraction of a gap that remains if the gap is too narrow for k_remaining_edges
+constexpr double k_gap_opposing_cosine = 0.7;  ///< a wall is opposing if it faces the growth line within 45 degrees; all other walls are left to the exact test
 constexpr int k_level_sweeps = 3;
 
-/// Returns the parameter along the segment p + s d (s in [0, 1]) of the intersection with the triangle, or a negative number. Rounding does not matter:
-/// heights keep a reserve.
+/// Returns the parameter s in [0, 1] at which the segment p + s d intersects the triangle, or a negative number. Rounding does not matter, because heights keep
+/// a reserve.
 double segment_hit(const Point& p, const Vec3& d, const std::array<Point, 3>& t) {
   const Vec3 e1 = t[1] - t[0], e2 = t[2] - t[0];
   const Vec3 q = cross(d, e2);
@@ -39,7 +40,7 @@ class GapFinder {
     parallel_for(context, edge_.size(), [&](std::size_t i) { edge_[VertexId(i)] = envelope_edge(base, envelope, VertexId(i)); });
   }
 
-  /// Appends the hit of v's growth line if the heights of both layers exceed the room in the gap. `buffer` is scratch.
+  /// Appends the hit of v's growth line if the heights of both layers exceed the room in the gap. `buffer` is scratch memory.
   void find(VertexId v, std::vector<std::uint32_t>& buffer, std::vector<WallGap>& hits) const {
     if (envelope_.is_collapsed(v)) return;
     const double reach = envelope_.height[v] + k_remaining_edges * edge_[v] / k_gap_opposing_cosine;
@@ -60,7 +61,7 @@ class GapFinder {
       nearest = t;
     }
     if (!nearest.is_valid() || is_shared_before(v, nearest)) return;
-    // An inclined growth line has a longer section between the layers than the remaining gap.
+    // Along an inclined growth line, the section between the layers is longer than the remaining gap.
     const double edge = std::max(edge_[v], largest(edge_, nearest)) / cosine(v, nearest);
     add_hit(v, nearest, first * look, edge, height_against(v, nearest), hits);
   }
@@ -101,8 +102,8 @@ class GapFinder {
     box.add(base_.wall.points[v] + length * envelope_.direction[v]);
     return box;
   }
-  /// Returns the search length along the growth line; 0 if there is no opposing layer. A conflict begins where the growth line meets the opposite layer,
-  /// which may be far from the wall under it: layers are searched first, then the walls under them.
+  /// Returns the length along the growth line over which to search; 0 if there is no opposing layer. A conflict begins where the growth line meets the opposite
+  /// layer, which may be far from the wall below that layer. Therefore layers are searched first, then the walls below them.
   double how_far_to_look(VertexId v, double reach, std::vector<std::uint32_t>& buffer) const {
     buffer.clear();
     collider_.find_cells(box_along(v, reach), buffer);

@@ -12,16 +12,16 @@
 namespace sterna::volmesh {
 namespace {
 
-/// Shares of the displacement to the optimum that are tried one after the other.
+/// Fractions of the displacement to the optimum. They are tried one after the other.
 constexpr std::array<double, 4> k_step_shares = {1.0, 0.5, 0.25, 0.125};
 
-/// Share of the target just above the share that counts as full height (layer_report.cpp).
+/// Fraction of the target, slightly above the fraction that counts as full height (layer_report.cpp).
 constexpr double k_full_height = 0.91;
-/// Share of the target below which optimisation does not lower a height. Smoothness justifies a small loss of height, but not a hole in the layer.
+/// Fraction of the target below which the optimisation does not lower a height. Smoothness justifies a small loss of height, but not a hole in the layer.
 constexpr double k_least_optimised_height = 0.8;
 
 void log_result(const OptimiseReport& report, std::string_view optimiser, const RunContext& context) {
-  if (report.history.empty()) {  // no vertex may move, or none of the points tried was feasible
+  if (report.history.empty()) {  // no vertex may move, or no point that was tried was feasible
     context.info("optimised (" + std::string(optimiser) + "): the envelope is unchanged, " + std::string(report.stopped));
     return;
   }
@@ -72,19 +72,20 @@ void optimise_globally(const LayerBase& base, const EnvelopeOptions& options, Co
     EnvelopeShape proposal = envelope;
     parallel_for(context, base.wall.n_vertices(), [&](std::size_t i) {
       const VertexId v(i);
-      if (is_at(best, start, v) || !is_at(envelope, start, v)) return;  // already at the optimum, or moved by a larger share before
+      if (is_at(best, start, v) || !is_at(envelope, start, v)) return;  // the vertex is already at the optimum, or moved by a larger fraction before
       if (share == 1.0) {
         proposal.height[v] = best.height[v];
         proposal.direction[v] = best.direction[v];
         return;
       }
       const Vec3 g = (1.0 - share) * start.height[v] * start.direction[v] + share * best.height[v] * best.direction[v];
-      proposal.height[v] = (1.0 - share) * start.height[v] + share * best.height[v];  // the chord between two directions is shorter
+      // Not the length of g, because the chord between two directions is shorter.
+      proposal.height[v] = (1.0 - share) * start.height[v] + share * best.height[v];
       proposal.direction[v] = normalized(g);
     });
     apply_where_clear(base, collider, envelope, proposal, context);
   }
-  // Vertices without any other limit are limited by the shape of the envelope: they were free to rise here.
+  // If no other limit applies to a vertex, the shape of the envelope limits it, because the optimiser was free to raise it.
   parallel_for(context, base.wall.n_vertices(), [&](std::size_t i) {
     const VertexId v(i);
     if (envelope.limit[v] == HeightLimit::none && envelope.height[v] < k_full_height * envelope.target[v]) envelope.limit[v] = HeightLimit::warp;

@@ -7,8 +7,8 @@
 namespace sterna::volmesh {
 
 /// Optimises heights and directions.
-/// \pre, \post every macro-element valid, envelope free of self-intersection. Where the optimum is not clear, vertices move part of the way.
-/// \throws Error(bad_argument) for an unknown optimiser.
+/// \pre, \post every macro-element is valid and the envelope is free of self-intersection. If the optimum is not clear, vertices move part of the way.
+/// \throws Error(bad_argument) for an unknown optimiser
 void optimise_globally(const LayerBase& base, const EnvelopeOptions& options, Collider& collider, Envelope& envelope, const RunContext& context);
 
 }  // namespace sterna::volmesh

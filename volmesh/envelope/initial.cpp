@@ -12,12 +12,12 @@
 namespace sterna::volmesh {
 namespace {
 
-/// Least cosine between the start direction and the face normals, as a share of the best possible cosine.
+/// Smallest cosine between the start direction and the face normals, as a fraction of the best possible cosine.
 constexpr double k_start_cosine = 0.7;
-/// Least cosine between a direction pulled into the visibility cone and the face normals, as a share of the best cosine.
+/// Smallest cosine between a direction pulled into the visibility cone and the face normals, as a fraction of the best cosine.
 constexpr double k_cone_share = 0.5;
-constexpr int k_pull_steps = 20;  ///< halvings: 1e-6 of the angle
-/// Cosines below this are rounding errors: there is no direction from which all faces are visible.
+constexpr int k_pull_steps = 20;  ///< number of halvings; the result is within 1e-6 of the angle
+/// Cosines below this value are rounding errors. There is then no direction from which all faces are visible.
 constexpr double k_visible = 1e-9;
 
 }  // namespace
@@ -47,8 +47,8 @@ Vec3 pull_into_cone(const LayerBase& base, VertexId v, const Vec3& wanted, doubl
 
 namespace {
 
-constexpr double k_taper_cosine = 0.2;  ///< cosine with the face normals of growth lines of a multi-normal fan that is not open yet, where such a direction
-                                        ///< exists
+/// Growth lines of a multi-normal fan that is not open yet have at least this cosine with the face normals, if such a direction exists.
+constexpr double k_taper_cosine = 0.2;
 
 void taper_fans(const LayerBase& base, Envelope& envelope) {
   if (base.ridges == nullptr) return;
@@ -64,7 +64,7 @@ void taper_fans(const LayerBase& base, Envelope& envelope) {
   }
 }
 
-/// limit_gradient(), but with a larger slope beside free edges of wake sheets.
+/// Same as limit_gradient(), but with a larger slope beside free edges of wake sheets.
 void limit_heights(const LayerBase& base, double gradient, Column<VertexId, double>& height) {
   for (const VertexId rim : base.sheet_rims) height[rim] = std::numeric_limits<double>::max();
   for (const VertexId rim : base.sheet_rims)
@@ -95,7 +95,7 @@ Envelope initial_envelope(const LayerBase& base, const EnvelopeOptions& options,
   envelope.height = envelope.target;
   envelope.cap = envelope.target;
   for (const VertexId v : envelope.height.ids()) {
-    const double least = std::min(scale.h_min(v), scale.max_thickness(v));  // heights that rise from a fixed vertex start below it
+    const double least = std::min(scale.h_min(v), scale.max_thickness(v));  // heights near a fixed vertex, which rise from zero, are below this value
     if (base.constraint[v].freedom == Freedom::fixed || envelope.target[v] < least) {
       envelope.height[v] = 0.0;
       envelope.limit[v] = HeightLimit::fixed;

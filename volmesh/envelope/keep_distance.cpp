@@ -1,4 +1,5 @@
-// Steps: find near locations around every top vertex, share the missing distance between both sides, make valid and clear again; a few sweeps.
+// Steps: find near locations around every top vertex; share the missing distance between both sides; make the envelope valid and clear again. A few sweeps are
+// made.
 #include "volmesh/envelope/keep_distance.h"
 
 #include <algorithm>
@@ -15,13 +16,14 @@ namespace sterna::volmesh {
 namespace {
 
 constexpr int k_sweeps = 4;
-constexpr double k_facing_cosine = 0.5;  ///< between growth direction (or facet normal) and the direction to the other side: within 60 degrees
-constexpr double k_least_share = 0.6;    ///< share of a height that remains after one sweep
-constexpr double k_good_enough = 0.98;   ///< share of the distance that is sufficient: no sweep for rounding
-constexpr double k_outer_share = 0.5;    ///< share of the distance to be kept from the outer boundary
+/// Cosine between growth direction (or facet normal) and the direction to the other side, which must be within 60 degrees.
+constexpr double k_facing_cosine = 0.5;
+constexpr double k_least_share = 0.6;   ///< fraction of a height that remains at least after one sweep
+constexpr double k_good_enough = 0.98;  ///< fraction of the distance that is sufficient, so that no sweep is made because of rounding
+constexpr double k_outer_share = 0.5;   ///< fraction of the distance that is kept from the outer boundary
 constexpr std::size_t k_distance_chunk = 256;
 
-/// A vertex and the height at which the top keeps its distance, m.
+/// A vertex, and the height in metres at which the top keeps its distance.
 using Wanted = std::pair<VertexId, double>;
 
 class NearPlaces {
@@ -31,7 +33,7 @@ class NearPlaces {
     parallel_for(context, edge_.size(), [&](std::size_t i) { edge_[VertexId(i)] = envelope_edge(base, envelope, VertexId(i)); });
   }
 
-  /// Appends the target heights of v's top point and of the opposing parts of the layer. `buffer` is scratch.
+  /// Appends the target heights for v's top point and for the opposing parts of the layer. `buffer` is scratch memory.
   void find(VertexId v, std::vector<std::uint32_t>& buffer, std::vector<Wanted>& wanted) const {
     if (envelope_.is_collapsed(v)) return;
     const double kept = k_kept_edges * edge_[v];
@@ -49,7 +51,7 @@ class NearPlaces {
   }
 
  private:
-  /// Distance from the point to an opposing triangle in front of it that faces the point; empty if there is none or the distance is sufficient.
+  /// Distance from the point to an opposing triangle that is in front of the point and faces it. Empty if there is none, or if the distance is sufficient.
   struct Near {
     double distance = 0.0, cosine = 0.0, back = 0.0;
   };
@@ -92,7 +94,7 @@ class NearPlaces {
   const LayerBase& base_;
   const Collider& collider_;
   const Envelope& envelope_;
-  Column<VertexId, double> edge_;  ///< m, of the envelope
+  Column<VertexId, double> edge_;  ///< m, edges of the envelope
 };
 
 }  // namespace
@@ -113,7 +115,7 @@ void keep_distance(const LayerBase& base, const EnvelopeOptions& options, Collid
     std::ranges::sort(wanted);
     std::vector<VertexId> lowered;
     for (const auto& [v, height] : wanted) {
-      if (!lowered.empty() && lowered.back() == v) continue;  // the lowest came first
+      if (!lowered.empty() && lowered.back() == v) continue;  // only the lowest height of each vertex is used, which comes first
       lowered.push_back(v);
       lower(envelope, v, height, HeightLimit::gap, scale);
       envelope.cap[v] = std::min(envelope.cap[v], height);

@@ -11,12 +11,12 @@
 namespace sterna::volmesh {
 namespace {
 
-constexpr int k_inside_bisections = 12;     ///< halvings: 0.02 % of the height
-constexpr int k_chord_steps = 4;            ///< each reduces the error of the chord's length by the square of the angle of rotation
-constexpr double k_seat_tolerance = 1e-12;  ///< share of the body length: rounding of a point on the surface
+constexpr int k_inside_bisections = 12;     ///< number of halvings; the result is within 0.02 % of the height
+constexpr int k_chord_steps = 4;            ///< number of steps; each reduces the error of the chord's length by the square of the angle of rotation
+constexpr double k_seat_tolerance = 1e-12;  ///< fraction of the body length: rounding error of a point on the surface
 constexpr int k_max_seat_rounds = 24;
-constexpr double k_seat_shrink = 0.7;  ///< factor on the height where the point on the surface is not possible; 24 rounds reach 2e-4 of the height, then the
-                                       ///< vertex collapses
+/// Factor on the height if the point on the surface is not possible; after 24 rounds, at 2e-4 of the height, the vertex collapses.
+constexpr double k_seat_shrink = 0.7;
 
 const ConstraintSurface& surface_of(const LayerBase& base, VertexId v) { return *base.surfaces[static_cast<std::size_t>(base.constraint[v].on[0])]; }
 
@@ -24,7 +24,7 @@ bool is_seated(const LayerBase& base, const Envelope& envelope, VertexId v) {
   return std::abs(surface_of(base, v).inside_distance(envelope.point(base.wall, v))) <= k_seat_tolerance * base.body_length;
 }
 
-/// Turns the chord until its end is on the surface; the height is constant to second order.
+/// Turns the chord until its end is on the surface. The height is constant to second order.
 void seat(const LayerBase& base, VertexId v, Envelope& envelope) {
   const Point p = base.wall.points[v];
   for (int step = 0; step < k_chord_steps; ++step) {
@@ -42,9 +42,9 @@ bool is_inside(const LayerBase& base, VertexId v, const Vec3& growth) {
   for (std::size_t k = 0; k < base.surfaces.size(); ++k) {
     if (base.constraint[v].is_on(k) || !base.concerns(k, v)) continue;
     const double own = base.surfaces[k]->inside_distance(p);
-    if (own <= 0.0 && !base.near.empty()) continue;  // beyond the border of the surface whose plane this is
+    if (own <= 0.0 && !base.near.empty()) continue;  // the vertex lies beyond the border of the surface to which this plane belongs
     const double there = base.surfaces[k]->inside_distance(p + growth);
-    // Half of the gap that a body and its mirror image leave between their layers.
+    // Half of the gap that a body and its mirror image leave between their layers is required.
     if (there <= 0.0 || there < std::min(k_kept_share * own, 0.5 * k_kept_edges * base.mean_edge[v])) return false;
   }
   return true;

@@ -13,8 +13,8 @@
 namespace sterna::volmesh {
 namespace {
 
-constexpr double k_least_share_of_edge = 1.0 / 3.0;  ///< least share of the mean edge, where triangles are stretched
-constexpr int k_edge_sweeps = 20;                    ///< sweeps of smoothing: about five rings, the thickness of a layer by eq. (1)
+constexpr double k_least_share_of_edge = 1.0 / 3.0;  ///< lower limit of the edge as a fraction of the mean edge, for stretched triangles
+constexpr int k_edge_sweeps = 20;                    ///< number of smoothing sweeps, which cover about five rings, the thickness of a layer by eq. (1)
 
 }  // namespace
 
@@ -28,8 +28,7 @@ double worst_cosine_of(std::span<const Vec3> normals, const Vec3& d) {
   return worst;
 }
 
-/// Returns the direction with the largest minimum of the cosines over the circle of directions in the plane: there two cosines are equal, or one is at its
-/// own maximum.
+/// Returns the direction in the plane with the largest minimum of the cosines. At this direction two cosines are equal, or one cosine is at its own maximum.
 Cap best_in_plane(const Vec3& axis, std::span<const Vec3> normals) {
   const VertexConstraint plane{Freedom::plane, axis};
   Vec3 x;
@@ -136,7 +135,7 @@ void LayerBase::set_layer_edges(const RunContext& context) {
   parallel_for(context, n, [&](std::size_t i) { layer_edge[VertexId(i)] = std::exp(own[i]); });
 }
 
-/// Gives growth lines with a common ridge base vertex the edges of the given triangles around it.
+/// Gives growth lines with a common ridge base vertex the edges of the given triangles around that vertex.
 void LayerBase::even_out_fans() {
   struct Sums {
     double area = 0.0, n_triangles = 0.0, edges = 0.0, n_lines = 0.0;
@@ -149,7 +148,7 @@ void LayerBase::even_out_fans() {
       sums.area += area[triangle_of(h)];
       sums.n_triangles += 1.0;
     }
-    sums.edges += mean_edge[v];  // growth lines inside a corner have no such edges
+    sums.edges += mean_edge[v];  // growth lines inside a corner have no edges of given triangles
     sums.n_lines += mean_edge[v] > 0.0 ? 1.0 : 0.0;
   }
   for (const VertexId v : wall.points.ids()) {
@@ -162,7 +161,7 @@ void LayerBase::even_out_fans() {
 }
 
 /// Computes the quantities that depend on the triangles at a vertex, or at all vertices of a group. All vertices of a group get the same values, except for
-/// the areas.
+/// areas.
 void LayerBase::derive(std::span<const VertexId> alike) {
   Vec3 sum;
   double length = 0.0, weights = 0.0, angles = 0.0, longest = 0.0;
@@ -198,7 +197,7 @@ void LayerBase::derive(std::span<const VertexId> alike) {
     visibility[first] = cap.cosine;
     if (norm2(vertex_normal[first]) == 0.0) vertex_normal[first] = cap.axis;
     const double seen = worst_cosine_of(normals, vertex_normal[first]);
-    if (seen > cap.cosine) {  // caps beyond a right angle: the angle-weighted mean may have the better worst cosine
+    if (seen > cap.cosine) {  // for caps of more than a right angle, the smallest cosine of the angle-weighted mean may be better
       visible_direction[first] = vertex_normal[first];
       visibility[first] = seen;
     }
@@ -235,7 +234,7 @@ void LayerBase::let_grow_alike(const std::vector<std::array<VertexId, 2>>& partn
   for (auto& entry : by_root) {
     for (const VertexId v : entry.second) {
       group[v] = static_cast<std::uint32_t>(groups.size());
-      // Directions of partners are equal to rounding; from here on to the bit.
+      // The directions of partners are equal except for rounding. From here on they are bit-identical.
       if (constraint[v].freedom == Freedom::line) constraint[v].axis = constraint[entry.second.front()].axis;
     }
     groups.push_back(std::move(entry.second));

@@ -1,4 +1,4 @@
-// Base of the layer: the wall with its derived geometry, opened ridges included.
+// Base of the layer: the wall with its derived geometry, including opened ridges.
 #pragma once
 
 #include <algorithm>
@@ -17,35 +17,35 @@
 
 namespace sterna::volmesh {
 
-inline constexpr double k_equilateral = 2.309401076758503;  ///< 4 / sqrt(3): square of the edge of an equilateral triangle over its area
-/// Returns l of eq. (1), m: the edge of the equilateral triangle of the same area (m); for stretched triangles at least a third of their mean edge (m).
+inline constexpr double k_equilateral = 2.309401076758503;  ///< 4 / sqrt(3): square of the edge of an equilateral triangle divided by its area
+/// Returns l of eq. (1) in metres: the edge of the equilateral triangle with the same area. For stretched triangles it is at least a third of their mean edge.
 double layer_edge_of(double equilateral_edge, double mean_edge);
 
 struct LayerBase {
-  /// \pre wall manifold, no degenerate triangle, normals into the fluid; constraints for the vertices of its open boundaries, if there are any.
-  /// `wall` and `ridges` (those of the wall; null: none) must outlive this.
+  /// \pre the wall is manifold, without degenerate triangles, and its normals point into the fluid; there are constraints for the vertices of its open
+  /// boundaries, if any. `wall` and `ridges` (those of the wall; null: none) must outlive this object.
   LayerBase(const TriMesh& wall, const RunContext& context, Constraints constraints = {}, const OpenedRidges* ridges = nullptr);
 
   const TriMesh& wall;
   Topology topology;
   double body_length;                                              ///< m
-  Column<VertexId, VertexConstraint> constraint;                   ///< constraints of directions and envelope points; all free by default
+  Column<VertexId, VertexConstraint> constraint;                   ///< constraints of directions and envelope points; by default all vertices are free
   std::vector<std::shared_ptr<const ConstraintSurface>> surfaces;  ///< indexed by VertexConstraint::on
-  Column<VertexId, std::uint64_t> near;                            ///< Constraints::near
-  Column<TriangleId, Vec3> unit_normal;                            ///< unit normal per triangle
+  Column<VertexId, std::uint64_t> near;                            ///< as in Constraints::near
+  Column<TriangleId, Vec3> unit_normal;                            ///< unit normal of each triangle
   Column<TriangleId, double> area;                                 ///< m^2
-  Column<VertexId, Vec3> vertex_normal;      ///< unit, angle-weighted mean of the incident normals (Thuermer & Wuethrich 1998), within the constraint
-  Column<VertexId, Vec3> visible_direction;  ///< unit, within the constraint; the direction with the largest worst cosine with the incident normals: axis of
-                                             ///< the smallest cap that contains all of them
-  Column<VertexId, double> visibility;       ///< cosine between visible_direction and the worst incident normal; <= 0: no direction sees all faces
-  Column<VertexId, double> facet_cosine;     ///< angle-weighted mean of the cosines between vertex_normal and the incident normals
-  Column<VertexId, double> mean_edge;        ///< m, of the edges at the vertex
-  Column<VertexId, double> longest_edge;     ///< m, of the edges at the vertex
-  Column<VertexId, double> layer_edge;       ///< m, l_j of eq. (1), see set_layer_edges()
-  Column<VertexId, double> vertex_area;      ///< m^2, a third of the incident triangles
+  Column<VertexId, Vec3> vertex_normal;      ///< unit, within the constraint: angle-weighted mean of the incident normals (Thuermer & Wuethrich 1998)
+  Column<VertexId, Vec3> visible_direction;  ///< unit, within the constraint: direction with the largest minimum of the cosines with the incident normals,
+                                             ///< which is the axis of the smallest cap that contains all of them
+  Column<VertexId, double> visibility;    ///< smallest cosine between visible_direction and the incident normals; <= 0: all faces are visible from no direction
+  Column<VertexId, double> facet_cosine;  ///< angle-weighted mean of the cosines between vertex_normal and the incident normals
+  Column<VertexId, double> mean_edge;     ///< m, mean of the edges at the vertex
+  Column<VertexId, double> longest_edge;  ///< m, longest of the edges at the vertex
+  Column<VertexId, double> layer_edge;    ///< m, l_j of eq. (1); see set_layer_edges()
+  Column<VertexId, double> vertex_area;   ///< m^2, a third of the area of the incident triangles
 
-  /// Groups of vertices with equal growth (where walls end on periodic sides), each group ascending; and each vertex's group (empty: no groups), k_no_group
-  /// for vertices without a group.
+  /// Groups of vertices with equal growth (where walls end on periodic sides), each in ascending order, and the group of each vertex. Without groups the second
+  /// list is empty; vertices without a group have k_no_group.
   std::vector<std::vector<VertexId>> groups;
   Column<VertexId, std::uint32_t> group;
   static constexpr std::uint32_t k_no_group = 0xffffffffu;
@@ -54,28 +54,29 @@ struct LayerBase {
   /// \pre constraints of partners are equal except for the sense of their axes
   void let_grow_alike(const std::vector<std::array<VertexId, 2>>& partners);
 
-  std::vector<std::array<VertexId, 2>> level;  ///< pairs whose layers must have equal heights: both sides of wake sheets
+  std::vector<std::array<VertexId, 2>> level;  ///< pairs of vertices whose layers must have equal heights: on both sides of wake sheets
 
-  /// Free edges of wake sheets, ascending: their growth lines have no height, but the layer need not be thin beside them, because fluid surrounds them.
+  /// Vertices on free edges of wake sheets, ascending. Their growth lines have no height, but the layer need not be thin beside them, because fluid surrounds
+  /// them.
   std::vector<VertexId> sheet_rims;
   bool is_sheet_rim(VertexId v) const { return std::binary_search(sheet_rims.begin(), sheet_rims.end(), v); }
 
   LayerDemand demand;  ///< layer settings of patches that replace the options (patch_layers.h); empty by default
 
-  /// Truncation per vertex, where patches have a setting other than PrismOptions::truncate (patch_layers.h); empty: no patch has.
+  /// Truncation of each vertex, if patches have another setting than PrismOptions::truncate (patch_layers.h); empty if no patch has one.
   Column<VertexId, Truncation> truncation;
 
   const OpenedRidges* ridges;  ///< null if no ridge is opened
-  /// Returns true for triangles between growth lines with a common ridge base vertex: they are no part of the given wall.
+  /// Returns true for triangles between growth lines with a common ridge base vertex. They are not part of the given wall.
   bool is_virtual(TriangleId t) const { return ridges != nullptr && t.index() >= ridges->n_given_triangles; }
   /// Returns true if both vertices have a common ridge base vertex. Edges between such vertices have nearly zero length and are excluded from means.
   bool have_one_foot(VertexId a, VertexId b) const { return ridges != nullptr && ridges->foot[a] == ridges->foot[b]; }
   /// Returns the multi-normal fan of a vertex; null if the vertex belongs to no fan.
   const OpenedRidges::Foot* fan_of(VertexId v) const;
-  /// Returns the visibility of the faces at a vertex that can be required of a growth direction: growth lines of a multi-normal fan must be able to converge
-  /// towards the end of their ridge, where their visibility is no better than that of a single growth line.
+  /// Returns the visibility of the faces at a vertex that can be required of a growth direction. The growth lines of a multi-normal fan must be able to
+  /// converge towards the end of their ridge, where their visibility is no better than that of a single growth line.
   double cone_visibility(VertexId v) const;
-  /// Returns true if an edge of the wall is beside a virtual triangle: such edges are no features.
+  /// Returns true if an edge of the wall belongs to a virtual triangle. Such edges are no features.
   bool is_in_gap(HalfedgeId h) const {
     const HalfedgeId twin = topology.twin(h);
     return is_virtual(triangle_of(h)) || (twin.is_valid() && is_virtual(triangle_of(twin)));
@@ -86,14 +87,14 @@ struct LayerBase {
   /// Returns the smallest cosine between d and the normals of v's triangles.
   double worst_cosine(VertexId v, const Vec3& d) const;
   /// Returns the number of copies of the edge v-other that meet at v if the body is mirrored at the surfaces through v: 1, 2 or 4. With this weight in every
-  /// mean around v, projected into the constraint, a half model gives the same results as the full model.
+  /// mean around v, and the mean projected into the constraint, a half model gives the same results as the full model.
   double mirror_weight(VertexId v, VertexId other) const;
 
  private:
   void derive(std::span<const VertexId> alike);
-  /// Sets the target edge for the height of the last prisms: of an equilateral triangle with the mean area of the triangles at the vertex, because tetrahedra
-  /// get this edge, too (stretched triangles: at least a third of the mean edge). Its logarithm is smoothed over some rings: a layer several edges thick
-  /// cannot follow the scatter between single triangles, whose steps would tilt the tops of all its prisms.
+  /// Sets the target edges for the height of the last prisms. The target is the edge of an equilateral triangle with the mean area of the triangles at the
+  /// vertex, because tetrahedra get this edge, too (for stretched triangles at least a third of the mean edge). Its logarithm is smoothed over some rings. A
+  /// layer several edges thick cannot follow the scatter between single triangles: the steps would tilt the tops of all its prisms.
   void set_layer_edges(const RunContext& context);
   void even_out_fans();
 };
@@ -105,7 +106,7 @@ void for_each_alike(const LayerBase& base, VertexId v, const F& f) {
   for (const VertexId w : base.groups[base.group[v]]) f(w);
 }
 
-/// Calls f(half-edge, other end) once for every edge at v: its outgoing half-edges and, on the boundary, the incoming half-edge without a twin.
+/// Calls f(half-edge, other end) once for every edge at v: for its outgoing half-edges and, on the boundary, for the incoming half-edge without a twin.
 template <class F>
 void for_each_edge(const Topology& topology, VertexId v, const F& f) {
   for (const HalfedgeId h : topology.outgoing(v)) {
@@ -115,15 +116,15 @@ void for_each_edge(const Topology& topology, VertexId v, const F& f) {
   }
 }
 
-/// Axis of the smallest spherical cap that contains all `normals`, and the cosine of its half angle (Aubry & Loehner 2008, "most normal normal").
-/// Meaningful for caps below 90 degrees; otherwise the returned cosine (the true minimum over the normals) is not positive.
+/// Axis of the smallest spherical cap that contains all `normals`, and the cosine of its half angle (Aubry & Loehner 2008, "most normal normal"). The cap is
+/// meaningful if its half angle is below 90 degrees. Otherwise the returned cosine (the true minimum over the normals) is not positive.
 struct Cap {
   Vec3 axis;
   double cosine = -1.0;
 };
 Cap smallest_cap(std::span<const Vec3> normals);
 
-/// Returns the direction within the constraint with the largest worst cosine with the normals, and this cosine. O(m^3) for m normals in a plane.
+/// Returns the direction within the constraint with the largest minimum of the cosines with the normals, and this minimum. O(m^3) for m normals in a plane.
 Cap best_seen(const VertexConstraint& constraint, std::span<const Vec3> normals);
 
 }  // namespace sterna::volmesh

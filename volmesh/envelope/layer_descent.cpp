@@ -1,4 +1,4 @@
-// Block coordinate descent of LayerObjective: every vertex is a block of at most three unknowns.
+// Block coordinate descent for LayerObjective. Every vertex is a block of at most three unknowns.
 #include <algorithm>
 #include <cmath>
 #include <limits>
@@ -9,14 +9,15 @@
 namespace sterna::volmesh {
 namespace {
 
-constexpr int k_max_descent_halvings = 6;    ///< halvings of a step that raises the objective, before the vertex waits for changes of its neighbours
-constexpr std::size_t k_max_incident = 64;   ///< triangles at a vertex that moves; beyond it the vertex stays
-constexpr double k_max_step = 0.5;           ///< in units of h_u
-constexpr double k_sufficient = 1e-4;        ///< Armijo condition: share of the predicted decrease
-constexpr double k_min_turning_share = 0.2;  ///< least curvature against turning, as a share of that of a vertex on a plane
-constexpr std::size_t k_visit_chunk = 256;   ///< vertices of a colour per task: a visit costs some microseconds
+/// Largest number of halvings of a step that raises the objective; after that the vertex waits for changes of its neighbours.
+constexpr int k_max_descent_halvings = 6;
+constexpr std::size_t k_max_incident = 64;   ///< a vertex with more triangles than this does not move
+constexpr double k_max_step = 0.5;           ///< largest step, in units of h_u
+constexpr double k_sufficient = 1e-4;        ///< Armijo condition: required fraction of the predicted decrease
+constexpr double k_min_turning_share = 0.2;  ///< smallest curvature against turning, as a fraction of the curvature for a vertex on a plane
+constexpr std::size_t k_visit_chunk = 256;   ///< number of vertices of a colour per task; the visit of a vertex takes some microseconds
 
-/// Solves (B^T H B) c = B^T r for the columns B = directions[0 .. n), by elimination without pivoting (H is positive definite); returns B c.
+/// Solves (B^T H B) c = B^T r for the columns B = directions[0 .. n) by elimination. Pivoting is not needed, because H is positive definite. Returns B c.
 Vec3 solve_within(const SymmetricBlock& h, const std::array<Vec3, 3>& directions, int n, const Vec3& r) {
   std::array<std::array<double, 4>, 3> a{};
   for (int i = 0; i < n; ++i) {
@@ -41,10 +42,10 @@ Vec3 solve_within(const SymmetricBlock& h, const std::array<Vec3, 3>& directions
 
 }  // namespace
 
-/// Scratch data of a visit for every incident element; one object per task, so that nothing is allocated per vertex.
+/// Scratch data of a visit, for every incident element. There is one object per task, so that no memory is allocated per vertex.
 struct LayerObjective::VisitScratch {
   std::vector<LayerElement> elements = std::vector<LayerElement>(k_max_incident);
-  std::vector<std::array<Vec3, 2>> fixed = std::vector<std::array<Vec3, 2>>(k_max_incident);  ///< top edges less the moving growth edge
+  std::vector<std::array<Vec3, 2>> fixed = std::vector<std::array<Vec3, 2>>(k_max_incident);  ///< top edges minus the growth edge that moves
   std::vector<FoldPoints> fold_points;
   std::vector<std::size_t> fold_corner;
 };
@@ -133,7 +134,7 @@ double LayerObjective::visit(std::size_t i, Vec3Field& y, VisitScratch& scratch)
   hessian.add_identity(turning);
   hessian.add(-turning, u);
   hessian.add(even.curvature, normal);
-  hessian.add(height_weight(i) / (scale * scale), u);  // f_2 is linear: adds a curvature that limits the step along its slope to one h_u
+  hessian.add(height_weight(i) / (scale * scale), u);  // f_2 is linear: this adds a curvature that limits the step along its slope to one h_u
   for (std::size_t m = 0; m < n; ++m) elements[m].differentiate_corner_0(weights, gradient, hessian);
   for (std::size_t f = 0; f < folds.size(); ++f) {
     const Fold shape = fold_of(fold_points[f]);
@@ -153,7 +154,7 @@ double LayerObjective::visit(std::size_t i, Vec3Field& y, VisitScratch& scratch)
   Vec3 step = solve(-gradient);
   const double wanted = dot(start + step, normal) / scale;
   if (wanted > 1.0 || wanted < h_l_share_[i]) {
-    // Minimum of the model on the bound: the multiplier of the bound restores the missing height.
+    // This is the minimum of the model on the bound. The multiplier of the bound restores the missing height.
     const Vec3 lifted = solve(normal);
     step += ((std::clamp(wanted, h_l_share_[i], 1.0) - wanted) * scale / dot(lifted, normal)) * lifted;
   }
@@ -164,7 +165,7 @@ double LayerObjective::visit(std::size_t i, Vec3Field& y, VisitScratch& scratch)
   double share = 1.0;
   for (int halving = 0; halving <= k_max_descent_halvings; ++halving, share *= 0.5) {
     Vec3 next = (start + share * step) / scale;
-    clamp(i, next);  // lower limit of the length, and rounding
+    clamp(i, next);  // applies the lower limit of the length, and removes rounding errors
     if (!(local_objective(scale * next) <= before + k_sufficient * share * predicted)) continue;
     const double way = norm(next - y[i]);
     y[i] = next;

@@ -5,12 +5,12 @@ namespace {
 
 /// Derivatives of one quantity with respect to its input vectors.
 struct Seeds {
-  Vec3 to_top, to_middle;           ///< n_top, n_middle
-  std::array<Vec3, 3> to_growth{};  ///< growth edges, directly
-  std::array<Vec3, 2> to_edge{};    ///< edges of the envelope, directly
+  Vec3 to_top, to_middle;           ///< derivatives with respect to n_top and n_middle
+  std::array<Vec3, 3> to_growth{};  ///< direct derivatives with respect to the growth edges
+  std::array<Vec3, 2> to_edge{};    ///< direct derivatives with respect to the edges of the envelope
 };
 
-/// Returns the seeds of corner k: the sine is twice the area over the two lengths at the corner.
+/// Returns the seeds of corner k. Its sine is twice the area divided by both lengths at the corner.
 Seeds corner_seeds(const LayerElement& el, std::size_t k) {
   const double sine = (1.0 + el.corner[k]) * el.least_sine[k];
   const Vec3 third = el.top[1] - el.top[0];
@@ -54,7 +54,7 @@ void for_each_active_term(const LayerElement& el, const F& f) {
     }
     const double middle = el.middle[k] - el.margins->middle;
     if (middle < k_middle_onset) {
-      const double share = el.top_cosine[k] * el.top_area2 / el.wall_area2;  // b_2 in units of wall area times height; b_0 is the wall cosine
+      const double share = el.top_cosine[k] * el.top_area2 / el.wall_area2;  // b_2 divided by wall area and height; b_0 is the wall cosine
       const double root = std::sqrt(el.wall_cosine[k] * share);
       const double d_wall = 0.5 * share / root, d_share = 0.5 * el.wall_cosine[k] / root;
       Seeds s;
@@ -66,7 +66,7 @@ void for_each_active_term(const LayerElement& el, const F& f) {
   }
 }
 
-// n_top = top0 x top1, n_middle = (e0 x top1 + top0 x e1) / 2, top_k = e_k + g_(k+1) - g_0: derivatives with respect to top0 and top1.
+// Derivatives with respect to top0 and top1. n_top = top0 x top1, n_middle = (e0 x top1 + top0 x e1) / 2, top_k = e_k + g_(k+1) - g_0.
 Vec3 to_edge_0(const LayerElement& el, const Seeds& s) { return cross(el.top[1], s.to_top) + 0.5 * cross(el.e[1], s.to_middle) + s.to_edge[0]; }
 Vec3 to_edge_1(const LayerElement& el, const Seeds& s) { return cross(s.to_top, el.top[0]) + 0.5 * cross(s.to_middle, el.e[0]) + s.to_edge[1]; }
 
@@ -137,8 +137,8 @@ void LayerElement::differentiate_corner_0(const ElementWeights& weights, Vec3& g
     Seeds seeds;
     add_top_seeds(*this, weights.top, seeds);
     gradient += seeds.to_growth[0] - to_edge_0(*this, seeds) - to_edge_1(*this, seeds);
-    // 1 - cos is half the square of (growth edge - top normal), both unit (Gauss-Newton). The corner turns the normal by its displacement along the normal
-    // over the altitude, which affects all three growth edges, and turns its own edge.
+    // For unit vectors, 1 - cos is half the square of (growth edge - top normal), so Gauss-Newton applies. A displacement of the corner along the normal turns
+    // the normal by the displacement over the altitude, which affects all three growth edges. It also turns the growth edge of the corner.
     const Vec3 unit_top = n_top / top_area2;
     hessian.add(3.0 * weights.top * norm2(top[1] - top[0]) / (top_area2 * top_area2), unit_top);
     const double turning = weights.top / (length[0] * length[0]);

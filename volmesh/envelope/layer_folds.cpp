@@ -8,7 +8,7 @@
 namespace sterna::volmesh {
 namespace {
 
-constexpr double k_watched_cosine = 0.5;  ///< cosine of the angle between the normals; 120 degrees between the triangles
+constexpr double k_watched_cosine = 0.5;  ///< cosine of the angle between the normals; the angle between the triangles is then 120 degrees
 
 bool is_watched(const Fold& fold) { return fold.is_concave && fold.cosine < k_watched_cosine; }
 

@@ -10,11 +10,12 @@
 namespace sterna::volmesh {
 namespace {
 
-/// Bounds that are closer than this ratio fix the vertex (docs/method/optimisation.md, "Bounds").
+/// If the ratio of the bounds is less than this, the vertex is fixed (docs/method/optimisation.md, "Bounds").
 constexpr double k_min_bound_ratio = 1.05;
-constexpr double k_wide_reserve = 0.01;  ///< least slack above the wide margins at the start for an element to get these margins
+constexpr double k_wide_reserve = 0.01;  ///< an element gets the wide margins if its slack above them is at least this at the start
 
-/// Returns the share of a vertex of the full model that is in this model: half or a quarter; growth lines there count only their own triangles.
+/// Returns the fraction of a vertex of the full model that is in this model: half or a quarter on mirror planes, where a growth line has only its own
+/// triangles.
 double mirror_share(const LayerBase& base, VertexId v) {
   const VertexConstraint& constraint = base.constraint[v];
   if (constraint.on[0] >= 0 && !base.surfaces[static_cast<std::size_t>(constraint.on[0])]->is_mirror()) return 1.0;
@@ -51,7 +52,7 @@ LayerObjective::LayerObjective(const LayerBase& base, const Envelope& start, con
     mirror_share_[i] = mirror_share(base, v);
     if (start.is_collapsed(v) || base.constraint[v].freedom == Freedom::fixed || is_tapered(base, start, v)) return;
     const double h = dot(start.height[v] * start.direction[v], normal_[i]);
-    h_u_[i] = std::max(h_u_[i], h);  // the start must lie within the bounds
+    h_u_[i] = std::max(h_u_[i], h);  // the start must lie within the bounds, so they are extended
     if (!(h > 0.0) || h_u_[i] < k_min_bound_ratio * h_l) return;
     h_l_share_[i] = std::min(h, h_l) / h_u_[i];
     if (!floor.empty()) least_length_[i] = std::min(start.height[v], floor[v]) / h_u_[i];
@@ -59,7 +60,7 @@ LayerObjective::LayerObjective(const LayerBase& base, const Envelope& start, con
     for (const HalfedgeId half : base.topology.outgoing(v)) {
       const TriangleId t = triangle_of(half);
       if (!stands(t)) {
-        is_moving_[i] = 0;  // pyramids and tets beside collapsed vertices stay unchanged
+        is_moving_[i] = 0;  // pyramids and tetrahedra beside collapsed vertices stay unchanged
         return;
       }
       normal_sum_[i] += base.unit_normal[t];
@@ -77,7 +78,7 @@ LayerObjective::LayerObjective(const LayerBase& base, const Envelope& start, con
       LayerElement e;
       has_wide_margins_[t] = load(t, y, e) && e.measure() > k_wide_reserve;
     });
-    // Elements exactly on the least margins (by rounding) have no barrier: their vertices stay.
+    // Elements exactly on the least margins (because of rounding) have no barrier. Their vertices do not move.
     for (std::size_t t = 0; t < is_element_.size(); ++t) {
       LayerElement e;
       if (has_wide_margins_[t] || !load(t, y, e) || e.measure() > 0.0) continue;
@@ -176,7 +177,7 @@ LayerObjective::Membrane LayerObjective::membrane(std::size_t v, double height, 
   if (weights_.membrane == 0.0) return sum;
   for (const VertexId w : base_.topology.neighbours(VertexId(v))) {
     const std::size_t other = w.index();
-    if (y[other] == Vec3{} || base_.have_one_foot(VertexId(v), w)) continue;  // collapsed, or with a common ridge base vertex
+    if (y[other] == Vec3{} || base_.have_one_foot(VertexId(v), w)) continue;  // the edge leads to a collapsed vertex, or to one with the same ridge base vertex
     const double length = distance(base_.wall.points[VertexId(v)], base_.wall.points[w]), weight = membrane_weight(v, other) / (length * length);
     const double rise = height - normal_height(other, y[other]), energy = 0.5 * weight * rise * rise;
     sum.energy += energy;

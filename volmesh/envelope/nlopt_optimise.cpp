@@ -1,7 +1,6 @@
-// Steps: walk to feasibility if the start is not feasible; minimise under the constraint; keep valid elements. Exceptions of the callbacks are stored and
-// thrown after the return from the C library.
-// Based on: S. G. Johnson, The NLopt nonlinear-optimization package; K. Svanberg, A class of globally convergent optimization methods based on conservative
-// convex separable approximations, SIAM J. Optim. 12 (2002).
+// Steps: if the start is not feasible, walk to a feasible point; minimise under the constraint; take back invalid elements. Exceptions of the callbacks are
+// stored, and thrown after the return from the C library. Based on: S. G. Johnson, The NLopt nonlinear-optimization package; K. Svanberg, A class of globally
+// convergent optimization methods based on conservative convex separable approximations, SIAM J. Optim. 12 (2002).
 #include "volmesh/envelope/nlopt_optimise.h"
 
 #include <nlopt.h>
@@ -20,21 +19,22 @@
 namespace sterna::volmesh {
 namespace {
 
-constexpr double k_walk_end = 1e-6;       ///< sum of violated g, dimensionless, at which the walk to feasibility ends; g_1,min is 1e-2
-constexpr int k_max_return_halvings = 8;  ///< halvings of a vertex's displacement from the start, before the vertex is taken back to the start
-constexpr double k_shrink = 0.9;          ///< factor on a growth edge, per step of the walk's second part
+constexpr double k_walk_end = 1e-6;       ///< the walk to a feasible point ends at this sum of violated g, dimensionless; for comparison, g_1,min is 1e-2
+constexpr int k_max_return_halvings = 8;  ///< number of halvings of a vertex's displacement, after which the vertex is moved back to its start
+constexpr double k_shrink = 0.9;          ///< factor on a growth edge in each step of the second part of the walk
 
-/// Data of the C callbacks. NLopt gets the sums of (8) and (9) times n_v instead of the means: its estimate of the curvature, rho, starts at 1 and never
-/// falls below 1e-5, while that of a mean over a million vertices is 1e-6, which would keep the steps far too short. The minimum is the same.
+/// Data of the C callbacks. NLopt gets the sums of (8) and (9) times n_v instead of the means; the minimum is the same. The reason is NLopt's estimate of the
+/// curvature, rho, which starts at 1 and never falls below 1e-5. For a mean over a million vertices the curvature is 1e-6, and such a lower limit would keep
+/// the steps far too short.
 struct Run {
   const PaperProblem& problem;
   const NloptSettings& settings;
   NloptReport& report;
   const RunContext& context;
-  bool is_walking = false;  ///< minimises the sum of violated g alone
+  bool is_walking = false;  ///< the run minimises only the sum of violated g
   nlopt_opt optimiser = nullptr;
   int n_evaluations = 0;
-  PaperObjective last;  ///< at the point of the latest evaluation; NLopt evaluates the constraint at a point after the objective
+  PaperObjective last;  ///< values at the point of the latest evaluation; NLopt evaluates the constraint at a point after the objective
   double best_value = std::numeric_limits<double>::infinity();
   std::vector<double> best{};  ///< best feasible point; during the walk, the least infeasible point
   std::exception_ptr trouble{};
@@ -70,7 +70,7 @@ struct Run {
     return g.total() - slack();
   }
 
-  /// Runs f without letting an exception cross NLopt: the first exception is stored and the run is stopped.
+  /// Runs f such that no exception passes through NLopt. The first exception is stored, and the run is stopped.
   template <class F>
   double guarded(const F& f) noexcept {
     try {
@@ -107,7 +107,7 @@ void require_success(nlopt_result result, std::string_view what) {
        .hint = "use optimiser = \"descent\""});
 }
 
-/// Returns the stopping criterion; rounding limits count as a regular end.
+/// Returns the name of the stopping criterion. Limits because of rounding count as a regular end.
 std::string_view reason_of(nlopt_result result) {
   switch (result) {
     case NLOPT_XTOL_REACHED: return "converged";
@@ -120,7 +120,7 @@ std::string_view reason_of(nlopt_result result) {
   }
 }
 
-/// Makes one run of NLopt from z. \post run.best is the best point evaluated, if there was any.
+/// Runs NLopt once from z. \post run.best is the best point evaluated, if there was any
 nlopt_result minimise(Run& run, std::vector<double> z) {
   const NloptSettings& settings = run.settings;
   const std::unique_ptr<nlopt_opt_s, decltype(&nlopt_destroy)> optimiser(
@@ -142,7 +142,7 @@ nlopt_result minimise(Run& run, std::vector<double> z) {
   return result;
 }
 
-/// Minimises the sum of violated g alone; if this ends in a local minimum, shortens the growth edges of elements that are still violated. Returns true if the
+/// Minimises only the sum of violated g. If this ends in a local minimum, shortens the growth edges of elements that are still violated. Returns true if the
 /// result is feasible.
 bool walk_to_feasibility(const PaperProblem& problem, const NloptSettings& settings, std::vector<double>& z, NloptReport& report, const RunContext& context) {
   Run run{.problem = problem, .settings = settings, .report = report, .context = context, .is_walking = true};
@@ -153,8 +153,9 @@ bool walk_to_feasibility(const PaperProblem& problem, const NloptSettings& setti
   return problem.constraint(z, {}, context).total() <= run.slack();
 }
 
-/// Takes vertices of elements that are invalid or worse than `least_quality` half the way back to `from`, repeatedly and in the end completely, until there
-/// are no such elements (or only elements that are so in `from` too). `optimised` is at z at first. Returns the number of vertices taken back.
+/// Moves vertices of elements that are invalid or worse than `least_quality` half the way back to `from`. Repeats this, and finally moves them back completely,
+/// until there are no such elements (except those that are invalid or worse in `from` as well). `optimised` is at z at first. Returns the number of vertices
+/// that were moved back.
 std::size_t go_back(const LayerBase& base, const PaperProblem& problem, const Envelope& from, double least_quality, std::vector<double> z, Envelope& optimised,
                     const RunContext& context) {
   const std::size_t n = base.wall.n_vertices();
@@ -182,7 +183,7 @@ std::size_t go_back(const LayerBase& base, const PaperProblem& problem, const En
     parallel_for(context, n, [&](std::size_t i) {
       const VertexId v(i);
       if (n_halvings[v] <= k_max_return_halvings) return;
-      optimised.height[v] = from.height[v];  // to the bit
+      optimised.height[v] = from.height[v];  // bit-exact
       optimised.direction[v] = from.direction[v];
     });
   }
@@ -201,7 +202,8 @@ Envelope nlopt_optimise(const LayerBase& base, const Envelope& start, const Colu
     return start;
   }
   std::vector<double> z = problem.unknowns(start);
-  for (std::size_t i = 0; i < z.size(); ++i) z[i] = std::clamp(z[i], problem.bounds().lower[i], problem.bounds().upper[i]);  // outside by rounding only
+  // The points are outside of the bounds by rounding errors only.
+  for (std::size_t i = 0; i < z.size(); ++i) z[i] = std::clamp(z[i], problem.bounds().lower[i], problem.bounds().upper[i]);
   Envelope from = start;
   if (problem.constraint(z, {}, context).total() > k_walk_end) {
     report.is_feasible = walk_to_feasibility(problem, settings, z, report, context);
@@ -218,7 +220,7 @@ Envelope nlopt_optimise(const LayerBase& base, const Envelope& start, const Colu
   report.run.n_evaluations = run.n_evaluations;
   report.run.stopped = reason_of(result);
   report.is_time_limit = result == NLOPT_MAXTIME_REACHED;
-  if (report.run.history.empty()) {  // the start itself is outside the slack
+  if (report.run.history.empty()) {  // the start itself violates the constraint by more than the slack
     report.is_feasible = false;
     report.run.stopped = "no feasible point found";
     return start;

@@ -10,7 +10,7 @@
 namespace sterna::volmesh {
 namespace {
 
-constexpr double k_rest = 2e-3;  ///< in units of h_u: a vertex that moves less is not visited until a neighbour moves more
+constexpr double k_rest = 2e-3;  ///< in units of h_u: after a smaller move, a vertex is not visited again until a neighbour moves by more than this
 
 bool is_converged(const std::vector<ObjectiveValue>& history, double tolerance) {
   if (history.size() < 3) return false;

@@ -1,5 +1,5 @@
-// Steps of an evaluation: growth edges from the unknowns; f over the vertices; g over the elements. The gradients of the few violated elements are added in
-// the order of their numbers, so that the sums do not depend on the number of threads.
+// Steps of an evaluation: growth edges from the unknowns; f over the vertices; g over the elements. Few elements are violated. Their gradients are added in the
+// order of their numbers, so that the sums do not depend on the number of threads.
 #include "volmesh/envelope/paper_problem.h"
 
 #include <algorithm>
@@ -12,9 +12,10 @@
 namespace sterna::volmesh {
 namespace {
 
-/// Bounds that are closer than this ratio fix the vertex (docs/method/optimisation.md, "Bounds").
+/// If the ratio of the bounds is less than this, the vertex is fixed (docs/method/optimisation.md, "Bounds").
 constexpr double k_paper_bound_ratio = 1.05;
-/// Range of the tangential unknowns in units of h_u: 63 degrees from the normal at full height. A start outside this range gets 1.5 times its own distance.
+/// Range of the tangential unknowns in units of h_u, which is 63 degrees from the normal at full height. If the start is outside of this range, the range is
+/// 1.5 times the distance of the start.
 constexpr double k_tangent_reach = 2.0;
 constexpr double k_tangent_reserve = 1.5;
 
@@ -24,7 +25,7 @@ bool is_standing(const Envelope& envelope, const TriangleVertices& v) {
 
 }  // namespace
 
-/// Gradient of one violated element with respect to the growth edges of its corners, m^-1.
+/// Gradient of one violated element with respect to the growth edges of its corners, 1/m.
 struct PaperProblem::Violated {
   TriangleId triangle;
   std::array<Vec3, 3> gradient;
@@ -193,11 +194,11 @@ PaperConstraint PaperProblem::constraint(const Weights& weights, std::span<const
           const auto [p0, p1, p2] = corners(base_.wall, t);
           const Vec3 g0 = growth_[v[0]], g1 = growth_[v[1]], g2 = growth_[v[2]];
           const Vec3& n = base_.unit_normal[t];
-          // (6): cross products are twice the area vectors of both triangles, and |n_w|^2 cancels one of the factors.
+          // Eq. (6): the cross products are twice the area vectors of both triangles, and |n_w|^2 cancels one of the factors.
           const Vec3 e1 = (p1 - p0) + (g1 - g0), e2 = (p2 - p0) + (g2 - g0);
           const double double_area = 2.0 * base_.area[t];
           const double first = g1_min_ - dot(n, cross(e1, e2)) / double_area;
-          // (7)
+          // Eq. (7).
           const std::array<double, 3> rise = {dot(g0, n) / upper_[v[0]], dot(g1, n) / upper_[v[1]], dot(g2, n) / upper_[v[2]]};
           const std::size_t lowest = static_cast<std::size_t>(std::min_element(rise.begin(), rise.end()) - rise.begin());
           const double second = -rise[lowest];

@@ -1,5 +1,5 @@
-// Steps of demand_of: layers_of_patches; connected parts and their numbers of layers; groups of patches with the same settings; blending distance of each
-// group's border; then, group by group, the distance to the group and its weight at the vertices within reach.
+// Steps of demand_of: layers_of_patches; connected parts and their numbers of layers; groups of patches with the same settings; blending distance at each
+// group's border. Then for each group: the distance to the group, and its weight at the vertices within reach.
 #include "volmesh/envelope/patch_layers.h"
 
 #include <algorithm>
@@ -22,20 +22,21 @@
 namespace sterna::volmesh {
 namespace {
 
-constexpr int k_length_digits = 4;       ///< digits of lengths in the log
-constexpr double k_blend_heights = 3.0;  ///< automatic blend over the taller layer: its top rises by a third of the difference at the border
-constexpr double k_blend_edges = 8.0;    ///< and over the mean edge: neighbouring growth lines differ by at most a ninth of the whole step (its slope is 0.86
-                                         ///< at most)
+constexpr int k_length_digits = 4;  ///< number of digits of lengths in the log
+/// Smallest ratio of an automatic blend to the height of the taller layer; its top then rises by a third of the difference at the border.
+constexpr double k_blend_heights = 3.0;
+constexpr double k_blend_edges = 8.0;  ///< smallest ratio of an automatic blend to the mean edge; neighbouring growth lines then differ by at most a ninth of
+                                       ///< the whole step (the largest slope is 0.86)
 
-/// Returns true if both numbers are equal or both are automatic.
+/// Returns true if both numbers are equal, or if both are automatic.
 bool is_same(double a, double b) { return a == b || (is_automatic(a) && is_automatic(b)); }
 
-/// Layer settings common to all patches of one group.
+/// Layer settings that are common to all patches of a group.
 struct Group {
   double first_height, max_growth, max_thickness;
-  const FirstHeights* by_place;  ///< not null: supplies the first height at each location, instead of first_height
-  double blend;                  ///< m, automatic initially
-  double total_height;           ///< m, automatic: by the edges
+  const FirstHeights* by_place;  ///< if not null, it supplies the first height at each location, and first_height is not used
+  double blend;                  ///< m; automatic until decide_blends()
+  double total_height;           ///< m; automatic: from the edges
   bool asks_as(const Group& other) const {
     return first_height == other.first_height && by_place == other.by_place && max_growth == other.max_growth && max_thickness == other.max_thickness &&
            is_same(total_height, other.total_height);
@@ -56,7 +57,7 @@ PatchKind kind_of(std::string_view name) {
   throw Error({.code = ErrorCode::bad_argument, .attempted = "setting the kinds of patches", .problem = "unknown patch kind \"" + std::string(name) + "\""});
 }
 
-/// Returns the number of the connected part of each vertex: its lowest vertex. Vertices that must grow alike are connected, too.
+/// Returns the number of the connected part of each vertex, which is its lowest vertex. Vertices that must grow alike count as connected.
 Column<VertexId, std::uint32_t> parts_of(const LayerBase& base) {
   const TriMesh& wall = base.wall;
   DisjointSets parts(wall.n_vertices());
@@ -83,7 +84,7 @@ void log_part(const TriMesh& wall, const std::map<int, std::set<std::uint32_t>>&
   context.info("connected walls have one number of layers: " + std::to_string(asked.rbegin()->first) + ", the largest requested (" + text + ")");
 }
 
-/// Returns per vertex the largest number of layers requested by a patch of its connected part.
+/// Returns for each vertex the largest number of layers that a patch of its connected part requests.
 Column<VertexId, std::uint16_t> numbers_of_layers(const LayerBase& base, const Column<PatchId, PatchLayers>& asked, int otherwise, const RunContext& context) {
   const TriMesh& wall = base.wall;
   const Column<VertexId, std::uint32_t> part = parts_of(base);
@@ -102,12 +103,12 @@ Column<VertexId, std::uint16_t> numbers_of_layers(const LayerBase& base, const C
   return layers;
 }
 
-/// Derives the remaining setting if a total height is given. Settings of the patch itself are kept. If the patch leaves both layers and growth open, the
-/// growth is derived (connected walls share the number of layers), or the setting that is derived for all walls.
+/// Derives the remaining setting if a total height is given. Settings of the patch itself are kept. If the patch sets neither layers nor growth, the setting
+/// that is derived for all walls is derived here; by default that is the growth, because connected walls share the number of layers.
 void solve(const std::string& of_all, const std::string& patch, PatchLayers& layers) {
   if (!layers.carries_layers() || is_automatic(layers.total_height)) return;
   if (!layers.has_own_layers && !layers.has_own_first_height && !layers.has_own_growth && !layers.has_own_height && of_all == "none")
-    return;  // derived for all walls, or proved to be consistent below
+    return;  // the setting was derived for all walls, or is checked for consistency below
   std::string solve_for = of_all == "none" ? "max_growth" : of_all;
   if (layers.has_own_growth && !layers.has_own_layers) solve_for = "layers";
   if (layers.has_own_layers && !layers.has_own_growth) solve_for = "max_growth";
@@ -187,7 +188,7 @@ class Blender {
   }
 
  private:
-  /// Calls f(g) for each group with a triangle at v; for some groups more than once.
+  /// Calls f(g) for each group that has a triangle at v. Some groups may be visited more than once.
   template <class F>
   void for_each_group_at(VertexId v, const F& f) const {
     for (const HalfedgeId h : base_.topology.outgoing(v)) {
@@ -228,7 +229,7 @@ class Blender {
   }
 
   Column<VertexId, double> distances_to(std::size_t group, double reach) const {
-    constexpr double k_beyond = 1.0;  // of a reach of zero
+    constexpr double k_beyond = 1.0;  // distance of vertices out of reach, if the reach is zero
     Column<VertexId, double> distance(base_.wall.n_vertices(), reach > 0.0 ? reach : k_beyond);
     for (const VertexId v : distance.ids())
       for_each_group_at(v, [&](std::size_t g) {
@@ -238,7 +239,7 @@ class Blender {
     return distance;
   }
 
-  /// Returns the weight of a group: 1 on the group's own patches, 0 from `reach` on; zero slope at both ends, so that the blended field has no kink.
+  /// Returns the weight of a group: 1 on the group's own patches, and 0 from `reach` on. The slope is zero at both ends, so that the blended field has no kink.
   static double share_at(double distance, double reach) {
     if (distance == 0.0) return 1.0;
     if (distance >= reach) return 0.0;
@@ -248,7 +249,7 @@ class Blender {
 
   void finish(VertexId v, double weight) {
     if (weight == 1.0 || weight == 0.0) {
-      // Exactly the requested values, without conversion to logarithms.
+      // The requested values are used exactly, without conversion to logarithms.
       const Group* own = &groups_.front();
       for_each_group_at(v, [&](std::size_t g) { own = &groups_[g]; });
       demand_.first_height[v] = first_height_at(*own, v);
@@ -268,7 +269,7 @@ class Blender {
   const RunContext& context_;
   bool has_common_growth_;
   std::vector<Group> groups_;
-  std::vector<int> group_of_patch_;  ///< -1: no layers, or no triangles
+  std::vector<int> group_of_patch_;  ///< group of each patch; -1: no layers, or no triangles
 };
 
 }  // namespace
@@ -334,18 +335,18 @@ Column<PatchId, PatchLayers> layers_of_patches(const Column<PatchId, Patch>& pat
   return result;
 }
 
-/// Returns the layer settings of the patches of a part with layers. Patches of kinds other than wall (a nozzle at the end of its nacelle) get the settings of
-/// a wall of their name.
+/// Returns the layer settings for the patches of a part with layers. Patches of other kinds than wall (such as a nozzle at the end of its nacelle) get the
+/// settings of a wall of the same name.
 Column<PatchId, PatchLayers> layers_of_part(Column<PatchId, Patch> patches, const EnvelopeOptions& options, std::span<const PatchRule> rules) {
   for (Patch& patch : patches) patch.kind = PatchKind::wall;
   return layers_of_patches(patches, options, rules);
 }
 
-/// Gives vertices that must grow alike the least of their requested values; automatic values are not compared.
+/// Gives vertices that must grow alike the smallest of their requested values. Automatic values are not compared.
 template <class T>
 void take_least_of_groups(const std::vector<std::vector<VertexId>>& groups, Column<VertexId, T>& column) {
   if (column.empty()) return;
-  const auto asks_less = [](T a, T b) { return a < b || (b != b && a == a); };  // a number before NaN, k_automatic
+  const auto asks_less = [](T a, T b) { return a < b || (b != b && a == a); };  // a number counts as smaller than NaN (k_automatic)
   for (const std::vector<VertexId>& group : groups) {
     T least = column[group.front()];
     for (const VertexId v : group)
@@ -386,7 +387,7 @@ void warn_of_unused_blends(const LayerBase& base, const EnvelopeOptions& options
                  layers.blend,
                  layers.total_height};
   };
-  // Patches adjacent to a patch with other layers.
+  // Finds patches that are adjacent to a patch with other layers.
   Column<PatchId, std::uint8_t> differs(patches.size(), 0), is_there(patches.size(), 0);
   for (const VertexId v : base.wall.points.ids()) {
     std::set<PatchId> here;
@@ -406,7 +407,7 @@ void warn_of_unused_blends(const LayerBase& base, const EnvelopeOptions& options
       is_used = is_used || differs[p] != 0;
       names += (names.empty() ? "\"" : ", \"") + patches[p].name + "\"";
     }
-    if (is_used || names.empty()) continue;  // a rule without layers is an error already (ignored_requests.h)
+    if (is_used || names.empty()) continue;  // a rule that matches no patch with layers is already an error (ignored_requests.h)
     context.warn("blend = " + in_metres(rule.blend, k_length_digits) + " of patches[\"" + rule.names + "\"] has no effect: no wall that meets " + names +
                  " has layers with another first height, growth, height or thickness. Leave blend out, or give the neighbouring walls other layers");
   }

@@ -11,9 +11,9 @@
 namespace sterna::volmesh {
 namespace {
 
-constexpr int k_rounds = 20;  ///< vertices that are not equal after these rounds collapse
+constexpr int k_rounds = 20;  ///< number of rounds, after which vertices that are not equal collapse
 
-/// Returns, among the members' directions and their mean, the direction with the best visibility of the triangles of all members.
+/// Returns the direction with the best visibility of the triangles of all members. Candidates are the directions of the members and their mean.
 Vec3 common_direction(const LayerBase& base, const Envelope& envelope, const std::vector<VertexId>& group) {
   std::vector<Vec3> candidates;
   Vec3 sum;

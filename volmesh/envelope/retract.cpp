@@ -9,20 +9,21 @@
 namespace sterna::volmesh {
 namespace {
 
-constexpr double k_pair_reserve = 0.98;      ///< share of the largest share at which a pair of triangles is clear
-constexpr double k_clearance_factor = 0.95;  ///< applied once after the last collision: leaves a gap for tets between retracted layers
+constexpr double k_pair_reserve = 0.98;      ///< factor on the largest fraction of the heights at which a pair of triangles is clear
+constexpr double k_clearance_factor = 0.95;  ///< factor that is applied once after the last collision; it leaves a gap for tetrahedra between retracted layers
 constexpr int k_clear_regrow_rounds = 6;
 constexpr std::uint8_t k_not_tried = 255;  ///< number of failures after which no more steps are made
-constexpr std::uint8_t k_first_step = 1;   ///< the largest step of regrowth rarely keeps the clearance
+constexpr std::uint8_t k_first_step = 1;   ///< the first step of regrowth is not the largest one, because that rarely keeps the clearance
 
-/// Lowers heights on both sides of crossing pairs to the largest share at which the pair is clear, or collapses them. Returns the vertices of the pairs.
+/// Lowers heights on both sides of crossing pairs to the largest fraction at which the pair is clear, or collapses the vertices. Returns the vertices of the
+/// pairs.
 std::vector<VertexId> lower_pairs(const Collider& collider, const std::vector<BoundaryCrossing>& pairs, bool must_collapse, const EnvelopeScale& scale,
                                   Envelope& envelope, const RunContext& context) {
   std::vector<double> share(pairs.size(), 0.0);
   if (!must_collapse)
     parallel_for(
         context, pairs.size(), [&](std::size_t i) { share[i] = k_pair_reserve * collider.clear_share(pairs[i], envelope); }, 16);
-  // A vertex of several pairs takes the lowest height; all heights are computed from those before this round.
+  // A vertex of several pairs gets the lowest height. All heights are computed from those before this round.
   std::vector<std::pair<VertexId, double>> wanted;
   for (std::size_t i = 0; i < pairs.size(); ++i) {
     for (const BoundaryTriangle& triangle : pairs[i]) {
@@ -40,18 +41,18 @@ std::vector<VertexId> lower_pairs(const Collider& collider, const std::vector<Bo
   return vertices;
 }
 
-/// Takes a trial change back wherever the top crosses another part of the boundary with the changed heights `stretch` times as tall.
+/// Takes a trial change back at vertices where the top crosses another part of the boundary. The changed heights are multiplied by `stretch` for this test.
 void take_back_crossing(TrialChange& trial, Collider& collider, const EnvelopeShape& shape, double stretch, const RunContext& context) {
   std::vector<VertexId> around = trial.vertices_in_force();
   for (bool is_first = true; !around.empty(); is_first = false) {
     collider.move_top(shape, context, stretch, &trial.in_force());
     std::vector<VertexId> gone;
-    // Vertices taken back were clear of everything that has not moved.
+    // Vertices that were taken back were clear of everything that has not moved, so only pairs with moved vertices are tested.
     for (const BoundaryCrossing& pair : collider.crossings(context, &around, is_first ? nullptr : &trial.in_force()))
       for (const BoundaryTriangle& triangle : pair)
         for (const VertexId v : collider.moving_vertices(triangle))
           if (trial.take_back(v)) gone.push_back(v);
-    // Taking a vertex back may make an adjacent element invalid, whose vertices are then taken back too.
+    // Taking a vertex back may make an adjacent element invalid. The vertices of such elements are then taken back, too.
     const std::vector<VertexId> more = trial.take_back_invalid(gone);
     gone.insert(gone.end(), more.begin(), more.end());
     around = std::move(gone);
@@ -101,13 +102,13 @@ bool retract_collisions(const LayerBase& base, const EnvelopeOptions& options, C
     const std::vector<Swallowing> swallowings = pairs.empty() ? collider.swallowings(envelope) : std::vector<Swallowing>{};
     if (pairs.empty() && swallowings.empty()) {
       if (!needs_clearance) return has_changed;
-      // One more reduction of all retracted heights; it may cause new collisions, so the tests are repeated once.
+      // All retracted heights are reduced once more. This may cause new collisions, so the tests are repeated once.
       needs_clearance = false;
       sort_unique(retracted);
       for (const VertexId v : retracted) lower(envelope, v, k_clearance_factor * envelope.height[v], HeightLimit::collision, scale);
       around = retracted;
     } else {
-      // From max_retract_sweeps on each sweep collapses a vertex, so the loop terminates.
+      // From sweep max_retract_sweeps on, each sweep collapses a vertex, so the loop terminates.
       context.debug("layers collide at " + std::to_string(pairs.size() + swallowings.size()) + " locations");
       const bool must_collapse = sweep >= options.max_retract_sweeps;
       around = lower_pairs(collider, pairs, must_collapse, scale, envelope, context);

@@ -12,10 +12,10 @@
 namespace sterna::volmesh {
 namespace {
 
-constexpr double k_tallest_first = 0.8;          ///< share of the height of a regular tetrahedron: first cells of a sheet's last rows
+constexpr double k_tallest_first = 0.8;          ///< largest height of first cells in a sheet's last rows, as a fraction of the height of a regular tetrahedron
 constexpr double k_sheet_rounding = 1.0 + 1e-9;  ///< tolerance for comparisons of growth ratios
 
-/// Returns the options as a demand at every vertex.
+/// Returns a demand with the values of the options at every vertex.
 LayerDemand demand_everywhere(const LayerBase& base, const EnvelopeOptions& options) {
   const std::size_t n = base.wall.n_vertices();
   LayerDemand demand;
@@ -26,9 +26,9 @@ LayerDemand demand_everywhere(const LayerBase& base, const EnvelopeOptions& opti
   return demand;
 }
 
-/// Layer targets of both sides at one base vertex of a sheet.
+/// Layer targets for both sides of a sheet at one base vertex.
 struct SheetLine {
-  double first_height = 0.0, height = 0.0, growth = 1.0;  ///< m, m; growth of the layer before the edge
+  double first_height = 0.0, height = 0.0, growth = 1.0;  ///< m: first height and total height; growth of the layer upstream of the edge
   int layers = 0;
 };
 
@@ -82,7 +82,7 @@ class SheetGrower {
     return line;
   }
 
-  /// Gives base vertices on periodic sides the targets of their images, to the bit.
+  /// Gives base vertices on periodic sides bit-exactly the targets of their images.
   void share_with_images() {
     constexpr std::size_t k_none = static_cast<std::size_t>(-1);
     Column<VertexId, std::size_t> line_at(base_.wall.n_vertices(), k_none);
@@ -103,7 +103,7 @@ class SheetGrower {
     }
   }
 
-  /// Returns the least number of layers whose growth does not exceed that before the edge.
+  /// Returns the smallest number of layers whose growth does not exceed the growth upstream of the edge.
   static int layers_for(const SheetLine& line, int all) {
     for (int n = 1; n < all; ++n)
       if (n == 1 ? line.height <= line.first_height * k_sheet_rounding : growth_for_height(line.first_height, line.height, n) <= line.growth * k_sheet_rounding)
@@ -111,7 +111,7 @@ class SheetGrower {
     return all;
   }
 
-  /// Raises numbers to one less than those of neighbours; free edges nominally have the largest number of their neighbours.
+  /// Raises numbers of layers to one less than those of neighbours. Vertices on free edges count as if they had the largest number of their neighbours.
   void level(Column<VertexId, std::uint16_t>& layers) const {
     std::vector<VertexId> changed;
     for (std::size_t i = 0; i < lines_.size(); ++i)
@@ -149,7 +149,7 @@ class SheetGrower {
   const DoubledSheets& sheets_;
   LayerBase& base_;
   EnvelopeScale scale_;
-  std::vector<SheetLine> lines_;  ///< per base vertex
+  std::vector<SheetLine> lines_;  ///< targets of each base vertex
 };
 
 }  // namespace

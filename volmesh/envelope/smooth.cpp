@@ -13,18 +13,19 @@ namespace sterna::volmesh {
 namespace {
 
 constexpr double k_relaxation = 0.5;  ///< docs/method/envelope.md, "Smoothing"
-/// Least share of the ceiling to which smoothing of the envelope may lower a height: well above the 0.9 that counts as full height.
+/// Smoothing may lower a height of the envelope to this fraction of its upper limit, which is well above the 0.9 that counts as full height.
 constexpr double k_smooth_floor = 0.94;
-/// Directions may tilt up to an angle of 65 degrees to the face normals, or half the best possible cosine.
+/// Directions may be inclined to the face normals by up to 65 degrees; if that is not possible, half the best possible cosine must remain.
 constexpr double k_cone_cosine = 0.4226;
-/// Weight of a convex feature, which needs no room: its multi-normal fan must not tilt the growth lines of the smooth surface beside it.
+/// Weight of a vertex on a convex feature. It is small because such a feature needs no room, and its multi-normal fan must not tilt the growth lines of the
+/// smooth surface beside it.
 constexpr double k_convex_feature_weight = 0.2;
-constexpr int k_concave_rings = 8;  ///< reach of the wide smoothing around concave features: a layer is 4 to 9 edges thick by eq. (1)
+constexpr int k_concave_rings = 8;  ///< number of rings of the wide smoothing around concave features; a layer is 4 to 9 edges thick by eq. (1)
 constexpr int k_region_rounds = 6;
-constexpr double k_worthwhile_share = 0.93;  ///< largest share of invalid elements left by a round for which another round is worth its cost
+constexpr double k_worthwhile_share = 0.93;  ///< another round is made only if the last one reduced the number of invalid elements to at most this fraction
 constexpr int k_region_rings = 6;
 
-/// Calls f(neighbour, weight) for the vertices that are used in the smoothing of v.
+/// Calls f(neighbour, weight) for the vertices that the smoothing of v uses.
 template <class F>
 void for_each_partner(const LayerBase& base, const Classification& classes, VertexId v, const F& f) {
   const VertexClass& own = classes.vertex[v];
@@ -141,7 +142,7 @@ Envelope relaxed(const LayerBase& base, const Classification& classes, const Col
       weights += weight;
     });
     if (weights == 0.0) return;
-    // The Laplacian of the envelope less that of the wall: otherwise the curvature of a coarse wall would outweigh a thin layer.
+    // The Laplacian of the wall is subtracted from that of the envelope. Otherwise the curvature of a coarse wall would outweigh a thin layer.
     const Vec3 own = envelope.height[v] * envelope.direction[v];
     const Vec3 growth = project(base.constraint[v], own + k_relaxation * (sum / weights - own));
     const double length = norm(growth);

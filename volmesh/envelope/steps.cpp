@@ -32,7 +32,7 @@ EnvelopeStep envelope_step_of(std::string_view text) {
 
 void smooth_step(const LayerBase& base, const Classification& classes, const EnvelopeOptions& options, Envelope& envelope, const RunContext& context) {
   smooth_heights(base, classes, options, envelope, context);
-  // A few sweeps everywhere remove noise; many sweeps only where growth lines converge, so that smooth surfaces keep their normals.
+  // A few sweeps everywhere remove noise. Many sweeps are made only where growth lines converge, so that growth lines on smooth surfaces stay normal to them.
   smooth_directions(base, classes, std::min(options.direction_sweeps, k_denoising_sweeps), envelope, context);
   const Column<VertexId, std::uint8_t> concave = concave_region(base, classes, context);
   smooth_directions(base, classes, options.direction_sweeps, envelope, context, &concave);

@@ -1,5 +1,5 @@
-// The steps of build_envelope() one by one, for callers that inspect or modify intermediate results. Called in their order, with the same options, they
-// produce the envelope of build_envelope() to the bit.
+// The single steps of build_envelope(), for callers that inspect or modify intermediate results. Called in their order and with the same options, they produce
+// bit-exactly the envelope of build_envelope().
 #pragma once
 
 #include <cstdint>
@@ -11,23 +11,23 @@
 
 namespace sterna::volmesh {
 
-/// State of an envelope: the last completed step.
+/// State of an envelope, named by the last completed step.
 enum class EnvelopeStep : std::uint8_t { classified, initial, smoothed, untangled, unwarped, retracted, finished };
 std::string_view to_string(EnvelopeStep step);
 /// \throws Error(bad_argument) for any other string
 EnvelopeStep envelope_step_of(std::string_view text);
 
-/// Smooths heights and directions, more where macro-elements are tangled, and keeps the envelope inside the constraint surfaces. Called after
+/// Smooths heights and directions, with more sweeps where macro-elements are tangled. Keeps the envelope inside the constraint surfaces. Called after
 /// classify_vertices() and initial_envelope().
 void smooth_step(const LayerBase& base, const Classification& classes, const EnvelopeOptions& options, Envelope& envelope, const RunContext& context);
 /// Limits heights where growth lines meet.
 void untangle_step(const LayerBase& base, const EnvelopeOptions& options, Envelope& envelope, const RunContext& context);
-/// \post every macro-element valid, heights as tall as validity allows, the envelope itself smoothed.
+/// \post every macro-element is valid, heights are as tall as validity allows, and the envelope itself is smoothed
 void unwarp_step(const LayerBase& base, const Classification& classes, const EnvelopeOptions& options, Envelope& envelope, const RunContext& context);
-/// \pre macro-elements valid.
-/// \post macro-elements valid and free of self-intersection: fit for tetrahedra.
+/// \pre macro-elements are valid
+/// \post macro-elements are valid and the envelope is free of self-intersection, so tetrahedra can be made
 void retract_step(const LayerBase& base, const EnvelopeOptions& options, Collider& collider, Envelope& envelope, const RunContext& context);
-/// \pre, \post valid and clear.
+/// \pre, \post the envelope is valid and clear
 void optimise_step(const LayerBase& base, const EnvelopeOptions& options, Collider& collider, Envelope& envelope, const RunContext& context);
 
 }  // namespace sterna::volmesh

@@ -1,6 +1,6 @@
-// Surfaces that do not cross may still lie within each other's layers: a small body inside a thick layer, layers that have passed through one another in an
-// annulus, a layer beyond the outer boundary. If nothing crosses, it is sufficient to test one point of the wall and one point of the top of each connected
-// part (and the points of the outer boundary): none may lie within a macro-element of another part.
+// Surfaces that do not cross may still lie within each other's layers. Examples are a small body inside a thick layer, layers that have passed through one
+// another in an annulus, and a layer beyond the outer boundary. If nothing crosses, it is sufficient to test one point of the wall and one point of the top of
+// each connected part, and the points of the outer boundary. None of them may lie within a macro-element of another part.
 #include <algorithm>
 #include <cmath>
 #include <numbers>
@@ -10,20 +10,22 @@
 namespace sterna::volmesh {
 namespace {
 
-/// Winding numbers are 0 or 1 up to rounding.
+/// Winding numbers are 0 or 1 except for rounding. Points with a larger number are inside.
 constexpr double k_swallowed_inside = 0.5;
-/// Least winding number of a cell that contains a point, alone or shared with the neighbour on the point's side.
+/// Smallest winding number of a cell that contains a point, alone or together with the neighbour on the point's side.
 constexpr double k_holds = 0.1;
-constexpr int k_swallow_bisections = 10;  ///< halvings: 0.1 % of the height
+constexpr int k_swallow_bisections = 10;  ///< number of halvings; the result is within 0.1 % of the height
 
-/// Returns the solid angle of a triangle seen from p over 4 pi, positive if its normal points away from p (Van Oosterom & Strackee 1983).
+/// Returns the solid angle of a triangle as seen from p, divided by 4 pi. It is positive if the triangle's normal points away from p (Van Oosterom & Strackee
+/// 1983).
 double winding(const Point& p, const Point& p0, const Point& p1, const Point& p2) {
   const Vec3 a = p0 - p, b = p1 - p, c = p2 - p;
   const double la = norm(a), lb = norm(b), lc = norm(c);
   return std::atan2(dot(a, cross(p1 - p0, p2 - p0)), la * lb * lc + dot(a, b) * lc + dot(b, c) * la + dot(c, a) * lb) / (2.0 * std::numbers::pi);
 }
 
-/// Returns the winding number of a macro-element at `share` of its heights. Sides are split from the wall vertex of lower number, so that neighbours tile.
+/// Returns the winding number of a macro-element at the fraction `share` of its heights. Sides are split from the wall vertex with the lower number, so that
+/// neighbours fit together.
 double cell_winding(const LayerBase& base, const EnvelopeShape& shape, TriangleId t, double share, const Point& p) {
   const TriangleVertices& v = base.wall.triangles[t];
   std::array<Point, 3> low, top;
@@ -45,7 +47,7 @@ double cell_winding(const LayerBase& base, const EnvelopeShape& shape, TriangleI
 std::vector<Swallowing> Collider::swallowings(const EnvelopeShape& shape) const {
   std::vector<Swallowing> all;
   std::vector<std::uint32_t> near;
-  // `part`: component of the point's own layer, whose cells are not tested; `mover`: vertex whose height moves the point.
+  // \p part component of the point's own layer, whose cells are not tested. \p mover vertex whose height moves the point
   const auto look = [&](const Point& p, std::uint32_t part, VertexId mover) {
     near.clear();
     Box box;
@@ -85,7 +87,7 @@ std::vector<Swallowing> Collider::swallowings(const EnvelopeShape& shape) const 
     has_top_point[part] = 1;
   }
   constexpr std::uint32_t k_no_part = 0xffffffff;
-  // Vertices of re-meshed patches do not exist any more where a layer covers them.
+  // Vertices of re-meshed patches that a layer covers will not exist in the final mesh.
   Column<VertexId, std::uint8_t> is_passing(outer_ ? outer_->n_vertices() : 0, 0);
   for (std::size_t t = 0; links_ && t < outer_->n_triangles(); ++t)
     if (links_->surface[TriangleId(t)] >= 0)

@@ -5,7 +5,7 @@
 
 namespace sterna::volmesh {
 
-/// Symmetric 3 x 3 matrix: xx, yy, zz, xy, yz, zx.
+/// Symmetric 3 x 3 matrix with the entries xx, yy, zz, xy, yz, zx.
 struct SymmetricBlock {
   double xx = 0.0, yy = 0.0, zz = 0.0, xy = 0.0, yz = 0.0, zx = 0.0;
   /// Adds w v v^T.

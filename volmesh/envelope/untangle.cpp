@@ -12,17 +12,17 @@
 namespace sterna::volmesh {
 namespace {
 
-/// Growth lines that converge by less than this do not meet within any layer (1e6 edge lengths away).
+/// Growth lines that converge by less than this do not meet within any layer (they meet 1e6 edge lengths away).
 constexpr double k_parallel = 1e-6;
 constexpr int k_untangle_smoothing_sweeps = 3;
-constexpr int k_lowering_rounds = 100;     ///< rounds of unwarp; 3 to 10 are usual, and elements that are still invalid then collapse
-constexpr int k_ring_sweeps = 3;           ///< rings over which the height rises again around a collapsed vertex
-constexpr int k_bisection_steps = 12;      ///< halvings in log h: 1 % of the height over four decades
-constexpr double k_smallest_scale = 1e-5;  ///< share of the largest height of an element at which its bisection starts
-constexpr double k_reserve = 0.98;         ///< a margin below the largest valid height, so that neighbours need not move again
-constexpr double k_regrow_share = 0.97;    ///< largest share of the height at which growth lines meet that regrowth may reach
+constexpr int k_lowering_rounds = 100;     ///< largest number of rounds of unwarp; 3 to 10 are usual, and elements that are still invalid afterwards collapse
+constexpr int k_ring_sweeps = 3;           ///< number of rings over which the height rises again around a collapsed vertex
+constexpr int k_bisection_steps = 12;      ///< number of halvings in log h; the result is within 1 % of the height over four decades
+constexpr double k_smallest_scale = 1e-5;  ///< fraction of the largest height of an element at which its bisection starts
+constexpr double k_reserve = 0.98;         ///< factor on the largest valid height, so that neighbours need not be lowered again
+constexpr double k_regrow_share = 0.97;    ///< largest fraction of the height at which growth lines meet that regrowth may reach
 constexpr int k_regrow_rounds = 12;
-constexpr std::array<double, 4> k_regrow_factors = {1.3, 1.12, 1.05, 1.02};  ///< growth of a height in one step, by the number of failures so far
+constexpr std::array<double, 4> k_regrow_factors = {1.3, 1.12, 1.05, 1.02};  ///< factors by which a height grows in one step, by the number of failures so far
 constexpr double k_step_gradient = 1.0;                                      ///< largest slope along edges beside lowered locations
 constexpr double k_ring_gradient = 0.5;                                      ///< largest slope from a collapsed vertex to the vertices around it
 
@@ -44,7 +44,7 @@ double valid_cut(const MacroElement& element) {
   return valid * tallest;
 }
 
-/// Collapses corners of an element that no height makes valid: those whose direction does not rise from the triangle; all if each direction rises.
+/// Collapses corners of an element that no height makes valid: corners whose direction does not rise from the triangle, or all corners if each direction rises.
 void collapse_corners(const LayerBase& base, TriangleId t, const EnvelopeScale& scale, HeightLimit reason, Envelope& envelope) {
   bool has_collapsed = false;
   for (const VertexId v : base.wall.triangles[t]) {
@@ -69,7 +69,7 @@ std::array<double, 2> edge_height_limits(const Point& p1, const Vec3& d1, const 
   return {scale * std::sin(beta2), scale * std::sin(beta1)};
 }
 
-// Only downwards: a lowered height is approached by a slope and not by a step.
+// Heights only fall, so that a lowered height is approached by a slope and not by a step.
 void level_steps(const LayerBase& base, const EnvelopeOptions& options, int sweeps, HeightLimit reason, Envelope& envelope, const RunContext& context) {
   const EnvelopeScale scale = scale_of(base, options);
   for (int sweep = 0; sweep < sweeps; ++sweep) {
@@ -105,7 +105,7 @@ void untangle_edges(const LayerBase& base, const EnvelopeOptions& options, Envel
   for (const VertexId v : limit.ids()) {
     if (!is_limited[v]) continue;
     lower(envelope, v, limit[v], HeightLimit::untangle, scale);
-    // Upper limit for regrow(): nearer to the meeting point, but there every wedge is tested.
+    // Upper limit for regrow(). It is nearer to the meeting point, because every wedge is tested in regrow().
     envelope.cap[v] = std::min(envelope.cap[v], k_regrow_share / options.untangle_share * limit[v]);
   }
   level_steps(base, options, k_untangle_smoothing_sweeps, HeightLimit::untangle, envelope, context);
@@ -113,7 +113,7 @@ void untangle_edges(const LayerBase& base, const EnvelopeOptions& options, Envel
 
 namespace {
 
-/// Returns the edges of these triangles at which the envelope is folded too sharply, ascending, each by its lower half-edge.
+/// Returns the edges of these triangles at which the envelope is folded too sharply. They are in ascending order, each given by its lower half-edge.
 std::vector<HalfedgeId> closed_folds(const LayerBase& base, const EnvelopeShape& envelope, const std::vector<TriangleId>& triangles) {
   std::vector<HalfedgeId> closed;
   for (const TriangleId t : triangles)
@@ -125,7 +125,7 @@ std::vector<HalfedgeId> closed_folds(const LayerBase& base, const EnvelopeShape&
   return closed;
 }
 
-/// Returns the share of the heights at the edge's four vertices at which the fold is open: near the wall the fold is as open as the wall.
+/// Returns the fraction of the heights at the edge's four vertices at which the fold is open. Near the wall the fold is as open as the wall.
 double open_share(const LayerBase& base, const Envelope& envelope, HalfedgeId h) {
   const EdgeDiamond diamond = edge_diamond(base, h);
   const FoldPoints wall = wall_points(base, diamond), top = envelope_points(base, envelope, diamond);
@@ -140,7 +140,7 @@ double open_share(const LayerBase& base, const Envelope& envelope, HalfedgeId h)
   return open;
 }
 
-/// Lowers all four vertices of closed folds: if only the vertices of the edge were lowered, the fold would be sharper.
+/// Lowers all four vertices of folds that are too sharp. If only the vertices of the edge were lowered, the fold would become sharper.
 std::vector<VertexId> lower_folds(const LayerBase& base, const std::vector<TriangleId>& bad, const EnvelopeScale& scale, HeightLimit reason, Envelope& envelope,
                                   const RunContext& context) {
   const std::vector<HalfedgeId> folds = closed_folds(base, envelope, bad);
@@ -159,7 +159,7 @@ std::vector<VertexId> lower_folds(const LayerBase& base, const std::vector<Trian
   return lowered;
 }
 
-/// Lowers the corners of invalid elements and folds, or collapses them; returns the lowered vertices, without repetition.
+/// Lowers the corners of invalid elements and folds, or collapses them. Returns the lowered vertices, each once.
 std::vector<VertexId> lower_elements(const LayerBase& base, const std::vector<TriangleId>& bad, bool must_collapse, const EnvelopeScale& scale,
                                      HeightLimit reason, Envelope& envelope, const RunContext& context) {
   std::vector<double> bound(bad.size(), 0.0);
@@ -190,10 +190,10 @@ std::vector<VertexId> lower_elements(const LayerBase& base, const std::vector<Tr
   return lowered;
 }
 
-/// Surrounds collapsed vertices, except those on free edges of wake sheets, by a ring of low vertices, from which the height rises by at most
-/// k_step_gradient; returns the lowered vertices. The ring is compressed (docs/method/envelope.md, "Warp"). If all growth lines have the same growth, the
-/// height rises by k_ring_gradient: growth lines a few first heights tall would have cells of a millionth of their neighbours' heights, and faces between
-/// stacked cells at 89.9 degrees.
+/// Surrounds collapsed vertices, except those on free edges of wake sheets, by a ring of low vertices, from which the height rises by at most k_step_gradient.
+/// Returns the lowered vertices. The ring is compressed (docs/method/envelope.md, "Warp"). If all growth lines have the same growth, the height rises by
+/// k_ring_gradient instead. Growth lines a few first heights tall would have cells of a millionth of their neighbours' heights, and faces between stacked cells
+/// would be inclined by 89.9 degrees.
 std::vector<VertexId> surround_collapsed(const LayerBase& base, const std::vector<VertexId>& vertices, const EnvelopeScale& scale, Envelope& envelope) {
   std::vector<VertexId> all, front;
   for (const VertexId v : vertices) {
@@ -238,7 +238,7 @@ std::vector<VertexId> unwarp(const LayerBase& base, const EnvelopeOptions& optio
     for (const VertexId v : envelope.height.ids()) may_be_down.push_back(v);
   for (int round = 0;; ++round) {
     const std::vector<TriangleId> bad = invalid_macros(base, envelope, context, looked_at);
-    // Each round with must_collapse collapses a vertex, or all are valid, so the loop terminates.
+    // Each round with must_collapse collapses a vertex, unless all elements are valid, so the loop terminates.
     around = bad.empty() ? surround_collapsed(base, may_be_down, scale, envelope)
                          : lower_elements(base, bad, round >= k_lowering_rounds, scale, reason, envelope, context);
     if (bad.empty()) may_be_down.clear();

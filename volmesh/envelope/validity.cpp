@@ -10,16 +10,17 @@
 namespace sterna::volmesh {
 namespace {
 
-/// g_1,min of eq. (6): the envelope triangle keeps this share of the wall triangle's area, projected on the wall.
+/// g_1,min of eq. (6): the envelope triangle keeps at least this fraction of the wall triangle's area in projection on the wall.
 constexpr double k_min_area_share = 0.01;
-/// Smallest cosine between envelope normal and growth edge (warp, docs/method/validity.md, "Margins"), unless the wall triangle itself has a flatter angle.
+/// Smallest cosine between envelope normal and growth edge (warp, docs/method/validity.md, "Margins"), unless the cosine at the wall triangle itself is
+/// smaller.
 constexpr double k_min_warp_cosine = 0.05;
 constexpr double k_warp_share_of_wall = 0.2;
-/// Reciprocal of the share of vertices up to which listing the triangles at these vertices is cheaper than testing all triangles.
+/// If at most one in this number of vertices is marked, listing the triangles at these vertices is cheaper than testing all triangles.
 constexpr std::size_t k_list_share = 16;
-/// Cosine between neighbouring normals above which no edge is folded: 60 degrees between the triangles.
+/// If the cosine between neighbouring normals is above this value, the edge is not folded: the angle between the triangles is then above 60 degrees.
 constexpr double k_open_fold_cosine = -0.5;
-/// Elements per task: about 50 us.
+/// Number of elements per task; a task takes about 50 us.
 constexpr std::size_t k_validity_chunk = 512;
 
 bool is_prism_valid_with_margin(const MacroElement& e) {
@@ -91,7 +92,7 @@ bool is_fold_open(const LayerBase& base, const EnvelopeShape& shape, HalfedgeId 
   if (base.topology.is_boundary(h)) return true;
   const EdgeDiamond diamond = edge_diamond(base, h);
   const Fold fold = fold_of(envelope_points(base, shape, diamond));
-  if (!(fold.cosine < k_open_fold_cosine)) return true;  // or a triangle without area, which is subject to another test
+  if (!(fold.cosine < k_open_fold_cosine)) return true;  // also returned for a triangle without area, which another test covers
   return fold_slack(fold, fold_limit(wall_points(base, diamond))) > 0.0;
 }
 

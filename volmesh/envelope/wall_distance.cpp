@@ -9,29 +9,30 @@
 namespace sterna::volmesh {
 namespace {
 
-/// Returns the largest value at c for which the linear function over the triangle (a, b, c) rises by at most `slope` per metre, with values ha, hb given:
-/// from inside the triangle where the steepest rise comes from there (the eikonal update of Kimmel & Sethian 1998), otherwise along the edges.
+/// Returns the largest value at c for which the linear function over the triangle (a, b, c) rises by at most `slope` per metre, for given values ha and hb. If
+/// the steepest rise to c comes from inside the triangle, this is the eikonal update of Kimmel & Sethian (1998); otherwise the rise along the edges determines
+/// the value.
 double slope_bound(const Point& a, double ha, const Point& b, double hb, const Point& c, double slope) {
   const double along_edges = std::min(ha + slope * distance(a, c), hb + slope * distance(b, c));
   const Vec3 base = b - a;
   const double length = norm(base);
   if (length == 0.0) return along_edges;
   const Vec3 x = base / length;
-  const double rise = (hb - ha) / length;  // the function's derivative along the edge a-b
+  const double rise = (hb - ha) / length;  // derivative of the function along the edge a-b
   if (std::abs(rise) >= slope) return along_edges;
   const Vec3 to_c = c - a;
   const double u = dot(to_c, x);
   const double height = norm(to_c - u * x);
   const double across = std::sqrt(slope * slope - rise * rise);
-  const double foot = u - height * rise / across;  // where the line of steepest rise through c intersects a-b
+  const double foot = u - height * rise / across;  // location at which the line of steepest rise through c intersects a-b
   const double value = ha + rise * u + across * height;
   return foot > 0.0 && foot < length && value >= std::max(ha, hb) ? value : along_edges;
 }
 
-/// A candidate value of a vertex, and the vertex.
+/// A vertex and a candidate for its value.
 using Offer = std::pair<double, std::uint32_t>;
 
-/// Queue of candidate values, smallest first. Most vertices keep their initial value: these values are sorted once, and the heap contains only lowered
+/// Queue of candidate values, smallest first. Most vertices keep their initial value. The initial values are sorted once, and the heap contains only lowered
 /// values.
 class Offers {
  public:

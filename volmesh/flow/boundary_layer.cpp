@@ -13,7 +13,7 @@ namespace {
 struct FrictionLaw {
   std::string_view name;
   double (*friction)(double reynolds);
-  double from, to;  ///< range of Reynolds numbers of the authors' fit
+  double from, to;  ///< range of Reynolds numbers for which the authors fitted the formula
 };
 constexpr std::array<FrictionLaw, 6> k_laws = {{
     {"schlichting", [](double re) { return std::pow(2.0 * std::log10(re) - 0.65, -2.3); }, 5e5, 1e9},
@@ -50,7 +50,7 @@ double skin_friction(const std::string& law, double reynolds) {
 
 FirstHeight first_height(const FirstHeightOptions& options, const FlowState& flow) {
   FirstHeight result{.y_plus = options.y_plus, .skin_friction = skin_friction(options.law, flow.reynolds), .options = options, .flow = flow};
-  const double ratio = std::sqrt(0.5 * result.skin_friction);  // u_tau / U
+  const double ratio = std::sqrt(0.5 * result.skin_friction);  // ratio u_tau / U
   result.wall_distance = options.y_plus * flow.length / (flow.reynolds * ratio);
   result.height = options.at == "cell_centre" ? 2.0 * result.wall_distance : result.wall_distance;
   if (!is_automatic(flow.speed)) result.friction_velocity = ratio * flow.speed;

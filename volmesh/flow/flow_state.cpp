@@ -40,7 +40,7 @@ void refuse_contradictions(const FlowConditions& given, Problems& problems) {
     problems.add("temperature, pressure and density cannot all be given: two of them are enough");
 }
 
-/// Determines temperature, pressure, density and viscosity, as far as they are given or follow from each other.
+/// Determines temperature, pressure, density and viscosity, if they are given or follow from other values.
 void find_gas(const FlowConditions& given, FlowState& flow) {
   flow.temperature = given.temperature;
   flow.pressure = given.pressure;

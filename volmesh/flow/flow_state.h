@@ -1,4 +1,4 @@
-// Flow conditions around the body: computes Reynolds number, speed and gas state from the values that the user gives.
+// Computes the flow conditions around the body: Reynolds number, speed and gas state from the values that the user gives.
 #pragma once
 
 #include <string>
@@ -22,7 +22,7 @@ struct FlowConditions {
   double viscosity = k_automatic;
 };
 
-/// Complete flow state. k_automatic: cannot be derived from the given values, and is not needed for the Reynolds number.
+/// Complete flow state. Values that are k_automatic cannot be derived from the given values, and are not needed for the Reynolds number.
 struct FlowState {
   double length = k_automatic;    ///< m, reference length of the Reynolds number
   double reynolds = k_automatic;  ///< speed * density * length / viscosity
@@ -35,14 +35,14 @@ struct FlowState {
   double altitude = k_automatic;     ///< m, if the standard atmosphere was used
 };
 
-/// Computes the flow state from one of these sets: altitude with mach or speed (air of the standard atmosphere); temperature and pressure or density, with mach
-/// or speed (air); density, viscosity and speed (any fluid); reynolds alone, or with temperature and mach or speed, from which the density follows (air). The
-/// length is always required. A user-supplied viscosity replaces Sutherland's.
-/// \throws Error(bad_argument) with all missing or redundant values; as standard_atmosphere
+/// Computes the flow state from one of these sets of values: altitude with mach or speed (air of the standard atmosphere); temperature and pressure or density,
+/// with mach or speed (air); density, viscosity and speed (any fluid); reynolds alone, or with temperature and mach or speed, from which the density follows
+/// (air). The length is always required. A viscosity given by the user replaces that of Sutherland's formula.
+/// \throws Error(bad_argument) with all missing or redundant values; the errors of standard_atmosphere
 FlowState flow_state(const FlowConditions& given);
 
-/// Returns the known values: "Re 2.14e+07 at 4.2 m, Mach 0.78, 230.2 m/s, 216.7 K, 22632 Pa, 0.3639 kg/m^3, 1.422e-05 Pa s, 11000 m of the standard
-/// atmosphere".
+/// Returns a line with the known values, such as "Re 2.14e+07 at 4.2 m, Mach 0.78, 230.2 m/s, 216.7 K, 22632 Pa, 0.3639 kg/m^3, 1.422e-05 Pa s, 11000 m of the
+/// standard atmosphere".
 std::string describe(const FlowState& flow);
 
 }  // namespace sterna::volmesh

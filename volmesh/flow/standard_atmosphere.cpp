@@ -13,7 +13,7 @@ namespace {
 constexpr double k_gravity = 9.80665;               ///< m/s^2
 constexpr double k_sea_level_pressure = 101325.0;   ///< Pa
 constexpr double k_sea_level_temperature = 288.15;  ///< K
-constexpr double k_least_temperature = 50.0;        ///< K: far below any air temperature; Sutherland's formula is not valid there
+constexpr double k_least_temperature = 50.0;        ///< K: lowest temperature; it is far below any air temperature, where Sutherland's formula is not valid
 
 struct Layer {
   double base;   ///< m, geopotential
@@ -22,7 +22,7 @@ struct Layer {
 constexpr std::array<Layer, 7> k_layers = {
     {{0.0, -6.5e-3}, {11000.0, 0.0}, {20000.0, 1e-3}, {32000.0, 2.8e-3}, {47000.0, 0.0}, {51000.0, -2.8e-3}, {71000.0, -2e-3}}};
 
-/// Pressure at the height dh above a point with pressure p and temperature t.
+/// Returns the pressure at the height dh above a point with pressure p and temperature t.
 double pressure_above(double p, double t, double lapse, double dh) {
   const double c = k_gravity / k_gas_constant;
   return lapse == 0.0 ? p * std::exp(-c * dh / t) : p * std::pow(t / (t + lapse * dh), c / lapse);

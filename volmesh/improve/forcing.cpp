@@ -10,9 +10,9 @@
 namespace sterna::volmesh {
 namespace {
 
-/// Share of the smaller extent along an axis: a proof needs an overlap that rounding and near-parallel edges cannot produce.
+/// Smallest overlap that counts, as a fraction of the smaller extent along an axis. Rounding and near-parallel edges cannot produce such an overlap.
 constexpr double k_least_overlap = 1e-3;
-/// Sine below which two edges count as parallel; their common normals are then face normals.
+/// Sine of an angle: below it two edges count as parallel, and their common normals are face normals.
 constexpr double k_forcing_parallel = 1e-6;
 
 using Core = std::array<Vec3, 4>;
@@ -22,7 +22,7 @@ Core core_of(const TetraBoundary& boundary, std::uint32_t triangle, double low) 
   const Vec3 &a = boundary.points[v[0]], &b = boundary.points[v[1]], &c = boundary.points[v[2]];
   const double opposite_a = norm(c - b), opposite_b = norm(a - c), opposite_c = norm(b - a), perimeter = opposite_a + opposite_b + opposite_c;
   const Vec3 normal = cross(b - a, c - a);
-  // Twice the area over the perimeter is the radius of the inscribed circle; the three planes meet above its centre.
+  // The radius of the inscribed circle is twice the area divided by the perimeter. The three planes meet above the centre of that circle.
   const Vec3 rise = (std::tan(low) / perimeter) * normal;
   return {a, b, c, (opposite_a * a + opposite_b * b + opposite_c * c) / perimeter + rise};
 }
@@ -47,7 +47,8 @@ bool is_separated_along(const Core& a, const Core& b, const Vec3& axis) {
   return common <= k_least_overlap * std::min(of_a[1] - of_a[0], of_b[1] - of_b[0]);
 }
 
-/// Returns true if two convex bodies overlap. They are separate if and only if they are separate along a face normal or along a normal of an edge of each.
+/// Returns true if two convex bodies overlap. They do not overlap if and only if they are separate along a face normal, or along a normal of an edge of each
+/// body.
 bool do_overlap(const Core& a, const Core& b) {
   constexpr std::uint8_t k_faces[4][3] = {{1, 3, 2}, {0, 2, 3}, {0, 3, 1}, {0, 1, 2}};
   constexpr std::uint8_t k_edges[6][2] = {{0, 1}, {0, 2}, {0, 3}, {1, 2}, {1, 3}, {2, 3}};
@@ -63,7 +64,7 @@ bool do_overlap(const Core& a, const Core& b) {
   return true;
 }
 
-/// Returns true if one tetrahedron within the limits can lie on both triangles: they share an edge and their hull is such a tetrahedron.
+/// Returns true if a tetrahedron within the limits can have both triangles as faces. They must share an edge, and their hull must be such a tetrahedron.
 bool can_share(const TetraBoundary& boundary, std::uint32_t triangle, std::uint32_t other, double low, double high) {
   const auto &v = boundary.triangles[triangle], &w = boundary.triangles[other];
   const auto is_shared = [&](std::uint32_t x) { return std::ranges::find(v, x) != v.end(); };

@@ -11,11 +11,11 @@
 namespace sterna::volmesh {
 namespace {
 
-constexpr double k_angles_end = 0.4;  ///< share of the time
-constexpr int k_wish_failures = 3;    ///< soft targets are many, and the feasible ones are reached soon
+constexpr double k_angles_end = 0.4;  ///< fraction of the time at the end of the first pass
+constexpr int k_wish_failures = 3;    ///< fewer attempts for the targets: many tetrahedra miss them, and those that can be improved are improved soon
 
-/// Limits of the second pass, after the pass for the hard limits: the target values of the gates. Changes in this pass make no angle worse than the worst that
-/// they replace, or than the limits.
+/// Returns the limits of the second pass, which follows the pass for the hard limits: the target values of the gates. Changes in this pass make no angle worse
+/// than the worst that they replace, or than the limits.
 QualityLimits wished_limits(const ImproveOptions& options) {
   const GateTable gates;
   QualityLimits limits = quality_limits(options.improve_min_angle, std::min(options.improve_max_angle, gates[Measure::max_dihedral].target));
@@ -69,7 +69,8 @@ void improve_around(const TetraBoundary& boundary, std::span<const std::uint32_t
   for (std::size_t t = 0; t < tets.tetrahedra.size(); ++t)
     if (std::ranges::any_of(tets.tetrahedra[t], [&](std::uint32_t v) { return v < is_around.size() && is_around[v]; }))
       some.push_back(static_cast<std::uint32_t>(t));
-  Improver improver(boundary, tets, wished_limits(options), context);  // a pass for angles alone would undo the volume changes
+  // There is a single pass, because a pass for angles alone would undo the changes of volumes.
+  Improver improver(boundary, tets, wished_limits(options), context);
   improver.work_on_bad_of(some);
   report.rounds += improver.run(options.improve_rounds);
   improver.finish(tets);

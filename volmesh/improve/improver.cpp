@@ -12,29 +12,31 @@
 namespace sterna::volmesh {
 namespace {
 
-constexpr std::size_t k_group = 300;  ///< bad tetrahedra per group: larger groups leave fewer between two groups; small enough to keep some cores busy
+/// Number of bad tetrahedra per group: larger groups have fewer bad tetrahedra between two groups, smaller groups occupy more cores.
+constexpr std::size_t k_group = 300;
 constexpr std::uint32_t k_ring_shift = 28;
-/// Rings of vertices around the bad tetrahedra that a group claims; every third pass adds a ring, for tetrahedra that one ring did not help.
+/// Returns the number of vertex rings around the bad tetrahedra that a group claims. Every third pass adds a ring, for tetrahedra that could not be improved
+/// within one ring.
 constexpr std::uint32_t rings_of(int pass) { return pass % 3 == 2 ? 2 : 1; }
 constexpr std::size_t k_job_chunk = 1;
 constexpr std::uint32_t k_no_region = 0xffffffffu;
-/// Limits on tetrahedra graded in all passes: per run, and per tetrahedron. Usual meshes take 20 to 400 per tetrahedron; fans of thousands of slivers would
-/// take days.
+/// Limits for the number of tetrahedra graded in all passes: per run, and per tetrahedron. Usual meshes need 20 to 400 per tetrahedron. Fans of thousands of
+/// slivers would take days without the limits.
 constexpr std::uint64_t k_least_effort = 300'000'000, k_effort_of_tet = 500, k_effort_of_job = 20'000'000;
-/// Effort that every run may use without a check of its benefit, per run and per tetrahedron under consideration: 10 s for a million of these.
+/// Effort that every run may use without a test of its benefit, per run and per considered tetrahedron. It takes 10 s for a million considered tetrahedra.
 constexpr std::uint64_t k_free_effort = 2'000'000, k_free_effort_of_tet = 100;
-/// After that, the run ends with the first passes, one of each kind, that graded more than this number of tetrahedra per repaired one: usual bad tetrahedra are
-/// repaired with a few thousand, while walls full of slivers continue like this for minutes.
+/// After that effort, the run ends if the last passes, one of each kind, graded more than this number of tetrahedra per repaired one. Usual bad tetrahedra are
+/// repaired with a few thousand. On walls full of slivers the passes would continue for minutes.
 constexpr int k_dear_mend = 10'000;
 constexpr std::size_t k_judged_passes = 3;
-/// The run also ends with one pass that took this many times as much per repaired tetrahedron: on tessellated cylinders with thousands of slivers one pass
-/// takes longer than all other steps.
+/// The run also ends after a single pass that graded this many times as many tetrahedra per repaired one. On tessellated cylinders with thousands of slivers
+/// one pass takes longer than all other steps.
 constexpr double k_hopeless_factor = 5.0;
-constexpr double k_expected_passes = 2.5;  ///< expected number of passes as long as the next one, for the progress report
-constexpr double k_hard_counts = 3.0;      ///< a tetrahedron beyond the hard limits counts as this many bad ones, as in the costs of a Region
-/// Changes may make tetrahedra of this share of the target as long as the mesh has worse tetrahedra.
+constexpr double k_expected_passes = 2.5;  ///< expected number of passes that are as long as the next one, for the progress report
+constexpr double k_hard_counts = 3.0;      ///< a tetrahedron beyond the hard limits counts like this number of bad ones, as in the costs of a Region
+/// Changes may make tetrahedra down to this fraction of the target while the mesh contains worse tetrahedra.
 constexpr double k_floor = 0.5;
-/// Volume ratio of a prism and a fitting tetrahedron: a prism of a third of the height of a regular tetrahedron is the reference of gate G9.
+/// Ratio of the volume of a prism to that of a fitting tetrahedron. The reference of gate G9 is a prism of a third of the height of a regular tetrahedron.
 constexpr double k_prism_over_tet = 3.0;
 constexpr std::size_t k_listing_chunk = 1 << 15;
 
@@ -65,8 +67,8 @@ double Improver::quality(const Corners& c) const {
   return on_layer ? *on_layer : quality_among(shape, size_weights_[c[0]] * size_weights_[c[1]] * size_weights_[c[2]] * size_weights_[c[3]], limits_);
 }
 
-/// Computes for each vertex the mean of the logarithms of the volumes around it; on top of the layer, the mean of that and of the volume that would fit the
-/// last prisms there.
+/// Computes for each vertex the mean of the logarithms of the volumes around it. On top of the layer it is averaged with the logarithm of the volume that would
+/// fit the last prisms there.
 void Improver::find_sizes(const TetraBoundary& boundary) {
   std::vector<double> log_volume(tets_.size());
   parallel_for(context_, tets_.size(), [&](std::size_t t) {
@@ -112,7 +114,7 @@ std::vector<LayerFace> Improver::local_layer_faces(const Job& job, std::uint32_t
       if (std::ranges::all_of(face->corners, [&](std::uint32_t u) { return owner_of(u) == number; }))
         faces.push_back({{local_[face->corners[0]], local_[face->corners[1]], local_[face->corners[2]]}, face->weight});
   }
-  return faces;  // local numbers ascend with global ones: the list is sorted
+  return faces;  // local numbers ascend with global ones, so the list is sorted
 }
 
 void Improver::work_on_all_but(std::span<const std::uint32_t> left) {
@@ -183,7 +185,8 @@ double Improver::amount_of_bad() const {
   return amount;
 }
 
-/// Returns true if the cost of the last passes exceeded their benefit. Numbers after each pass: remaining tries, and remaining bad tetrahedra.
+/// Returns true if the cost of the last passes exceeded their benefit. \p left_after and \p bad_after are numbers after each pass: remaining attempts, and
+/// remaining bad tetrahedra.
 bool Improver::is_dear(std::span<const std::uint64_t> left_after, std::span<const double> bad_after) const {
   const auto is_above = [&](std::size_t n_passes, double tries, std::uint64_t least) {
     const std::size_t n = left_after.size();
@@ -203,7 +206,7 @@ int Improver::run(int max_passes) {
   const std::uint64_t free_until = left - std::min(left, k_free_effort + k_free_effort_of_tet * n_about_);
   std::vector<std::uint64_t> left_after;  // one entry per pass
   std::vector<double> bad_after;
-  double n_done = 0.0;  // number of jobs done
+  double n_done = 0.0;  // number of finished jobs
   for (; pass < max_passes; ++pass) {
     context_.check_stop();
     std::vector<Job> jobs = choose_jobs(pass);
@@ -244,8 +247,8 @@ int Improver::run(int max_passes) {
   return pass;
 }
 
-/// Forms groups along Morton's curve; its grid and the first group's size differ from pass to pass, so that tetrahedra between two groups are inside one group
-/// in another pass.
+/// Forms groups along Morton's curve. The grid of the curve and the size of the first group differ from pass to pass, so that tetrahedra between two groups are
+/// inside one group in another pass.
 std::vector<Improver::Job> Improver::choose_jobs(int pass) const {
   Vec3 low = points_[0], high = points_[0];
   for (std::size_t v = 0; v < n_fixed_; ++v)
@@ -259,7 +262,7 @@ std::vector<Improver::Job> Improver::choose_jobs(int pass) const {
     bool operator<(const Item& other) const { return code != other.code ? code < other.code : tet < other.tet; }
   };
   std::vector<Item> items;
-  const double shift = 0.381966 * pass - std::floor(0.381966 * pass);  // golden section: no two passes are alike
+  const double shift = 0.381966 * pass - std::floor(0.381966 * pass);  // golden section: no two passes have the same shift
   for (const Bad& bad : bad_) {
     const Corners& c = tets_[bad.tet];
     const bool is_at_boundary = std::min({c[0], c[1], c[2], c[3]}) < n_fixed_;
@@ -283,8 +286,8 @@ std::vector<Improver::Job> Improver::choose_jobs(int pass) const {
   return jobs;
 }
 
-/// Claims the tetrahedra and vertices around the vertices that the job owns. The smaller ring around a bad tetrahedron has priority, then the job number; so
-/// the owners do not depend on the order of the claims.
+/// Claims the tetrahedra and vertices around the vertices that the job owns. The smaller ring around a bad tetrahedron has priority, then the lower job number.
+/// The owners therefore do not depend on the order of the claims.
 void Improver::claim_ring(Job& job, std::uint32_t number, std::uint32_t ring) {
   const std::uint32_t rank = ring << k_ring_shift | number;
   const auto claim = [&](std::uint32_t v) {

@@ -11,15 +11,15 @@ namespace {
 /// Cost factor of a bad tetrahedron away from the boundary, relative to one at the boundary.
 constexpr double k_interior_weight = 20.0;
 
-/// Cost factor of a tetrahedron beyond the hard limits, relative to one beyond those of improvement only.
+/// Cost factor of a tetrahedron beyond the hard limits, relative to one that only misses the targets.
 constexpr double k_hard_weight = 3.0;
 
-/// Largest initial cost of a detour, and its largest number of changes. A detour is the most expensive operation, so each tetrahedron gets one, after others
-/// around it have been tried.
+/// Largest initial cost of a detour, and its largest number of changes. A detour is the most expensive operation. Each tetrahedron therefore gets only one,
+/// after other tetrahedra around it have been tried.
 constexpr double k_detour = 2.0;
 constexpr int k_detour_steps = 12;
 constexpr int k_failures_before_detour = 2;
-constexpr double k_slender = 0.1;  ///< shortest over longest edge
+constexpr double k_slender = 0.1;  ///< ratio of the shortest to the longest edge
 constexpr int k_max_failures_inside = 16;
 constexpr int k_max_failures_slender = 3;
 constexpr int k_max_failures = 8;
@@ -62,7 +62,7 @@ void Region::add(const Corners& c) {
   tets_.push_back({c, g.of_angles, g.quality, cost_of(g.quality, touches_boundary(c))});
 }
 
-/// On top of the layer, a size is compared with the last prism; elsewhere, with the sizes around the vertices.
+/// On top of the layer, the size of a tetrahedron is compared with the last prism. Elsewhere it is compared with the sizes around its vertices.
 Region::Grade Region::grade(const TetShape& shape, const Corners& c, double weights) const {
   ++effort_;
   const std::optional<double> on_layer = quality_on_layer(shape, c, layer_faces_, n_boundary_, limits_);
@@ -94,8 +94,9 @@ double Region::weight_of(double quality, bool is_boundary) const {
   return (is_boundary ? 1.0 : k_interior_weight) * (quality < limits_.hard ? k_hard_weight : 1.0);
 }
 
-/// Cost of a quality. Below the target: a step, so that the number of tetrahedra counts, and a slope, so that the worst gain most. Above the target, up to
-/// twice the target: a small cost, so that other tetrahedra stay away from it. Beyond the hard limits: a multiple of all this.
+/// Returns the cost of a quality. Below the target it has a step, so that the number of tetrahedra counts, and a slope, so that the worst tetrahedra gain most.
+/// From the target to twice the target there is a small cost, so that tetrahedra stay away from the target. Beyond the hard limits the cost is multiplied by a
+/// factor.
 double Region::cost_of(double quality, bool is_boundary) const {
   const double x = quality / limits_.target;
   if (x >= 2.0) return 0.0;

@@ -1,8 +1,9 @@
 // Changes of connectivity without new points.
 //
-// Edge removal replaces the tetrahedra around an edge by pairs over the best triangulation of the ring of vertices around it (2-3 for a ring of 3, 4-4 for 4,
-// ...), found by dynamic programming (Klincsek 1980). Multi-face removal is its inverse: faces between the same two vertices are replaced by the edge between
-// these vertices. Based on: Shewchuk, Two discrete optimization algorithms for the topological improvement of tetrahedral meshes (2002).
+// Edge removal replaces the tetrahedra around an edge by pairs of tetrahedra over the best triangulation of the ring of vertices around it (2-3 for a ring of
+// 3, 4-4 for 4, etc.). The triangulation is found by dynamic programming (Klincsek 1980). Multi-face removal is the inverse operation: faces between the same
+// two vertices are replaced by the edge between these vertices. Based on: Shewchuk, Two discrete optimization algorithms for the topological improvement of
+// tetrahedral meshes (2002).
 
 #include <algorithm>
 #include <limits>
@@ -12,16 +13,16 @@
 namespace sterna::volmesh {
 namespace {
 
-constexpr std::size_t k_max_ring = 10;  ///< longer rings hardly ever improve the mesh
-constexpr int k_max_faces_deep = 4;     ///< recursion depth from the first face
+constexpr std::size_t k_max_ring = 10;  ///< largest ring; removing longer rings hardly ever improves the mesh
+constexpr int k_max_faces_deep = 4;     ///< largest recursion depth, counted from the first face
 
 std::size_t corner_of(const Region::Corners& c, std::uint32_t v) { return static_cast<std::size_t>(std::ranges::find(c, v) - c.begin()); }
 bool has(const Region::Corners& c, std::uint32_t v) { return corner_of(c, v) < 4; }
 
-/// The other two corners x, y such that (a, b, x, y) is positive.
+/// Returns the other two corners x and y, such that (a, b, x, y) is positive.
 std::array<std::uint32_t, 2> other_two(const Region::Corners& c, std::uint32_t a, std::uint32_t b) {
   const std::size_t i = corner_of(c, a), j = corner_of(c, b);
-  // Even permutations of 0123 by their first two entries.
+  // Even permutations of 0123, given by their first two entries.
   constexpr std::uint8_t k_rest[4][4][2] = {
       {{0, 0}, {2, 3}, {3, 1}, {1, 2}}, {{3, 2}, {0, 0}, {0, 3}, {2, 0}}, {{1, 3}, {3, 0}, {0, 0}, {0, 1}}, {{2, 1}, {0, 2}, {1, 0}, {0, 0}}};
   return {c[k_rest[i][j][0]], c[k_rest[i][j][1]]};
@@ -49,7 +50,7 @@ void Region::try_edge(std::uint32_t a, std::uint32_t b, Change& best) {
   }
   if (n < 3) return;
   compare_with({around.data(), n});
-  // The ring in order; at an edge of the border the ring is open.
+  // The ring in order. At an edge on the border the ring is open.
   std::array<std::uint32_t, k_max_ring> ring{};
   ring[0] = from[0];
   for (std::size_t i = 1; i <= n; ++i) {
@@ -99,7 +100,7 @@ void Region::try_edge(std::uint32_t a, std::uint32_t b, Change& best) {
 }
 
 std::uint32_t Region::across(std::uint32_t tet, const Face& face) const {
-  // Above slivers some vertices have hundreds of tetrahedra: the shortest list of the three is sufficient.
+  // Above slivers some vertices have hundreds of tetrahedra. Therefore only the shortest of the three lists is searched.
   const std::uint32_t v = std::ranges::min(face, {}, [&](std::uint32_t u) { return incident_[u].size(); });
   for (const std::uint32_t t : incident_[v])
     if (t != tet && std::ranges::all_of(face, [&](std::uint32_t u) { return has(tets_[t].corners, u); })) return t;
@@ -126,8 +127,8 @@ void Region::try_faces(std::uint32_t tet, std::size_t corner, Change& best) {
   best = std::move(change);
 }
 
-/// Extends the set of faces at the side (u, v) of the faces selected so far, seen counter-clockwise from `above`: either (u, v) stays a side and carries a new
-/// tetrahedron, or the face beyond it is added. Returns the cost, less that of the tetrahedra at the added faces.
+/// Extends the set of selected faces at their side (u, v), seen counter-clockwise from `above`. Either (u, v) stays a side and gets a new tetrahedron, or the
+/// face beyond it is added to the set. Returns the cost minus that of the tetrahedra at the added faces.
 double Region::extend_faces(std::uint32_t u, std::uint32_t v, std::uint32_t above, std::uint32_t below, std::uint32_t from_above, int depth,
                             Change& change) const {
   const Corners side{u, v, below, above};
@@ -145,7 +146,7 @@ double Region::extend_faces(std::uint32_t u, std::uint32_t v, std::uint32_t abov
       Change longer = change;
       longer.removed.push_back(next_above);
       longer.removed.push_back(next_below);
-      // Beyond (u, v) the face is (v, u, w).
+      // The face beyond (u, v) is (v, u, w).
       double sum = -tets_[next_above].cost - tets_[next_below].cost;
       sum += extend_faces(u, w, above, below, next_above, depth + 1, longer);
       if (sum < as_side) sum += extend_faces(w, v, above, below, next_above, depth + 1, longer);

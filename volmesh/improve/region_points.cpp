@@ -1,7 +1,7 @@
 // Changes that move, remove or add points.
 //
-// Smoothing reduces the sum of the costs of the tetrahedra around a point, along its gradient with decreasing steps. Where the worst tetrahedra have
-// conflicting gradients, the direction is the shortest vector in the convex hull of their gradients, along which all of them improve (Freitag and
+// Smoothing reduces the sum of the costs of the tetrahedra around a point. It moves the point along the gradient with decreasing steps. If the worst tetrahedra
+// have conflicting gradients, the direction is the shortest vector in the convex hull of their gradients, along which all of them improve (Freitag and
 // Ollivier-Gooch 1997). Insertion removes tetrahedra around a bad one until a new point is well visible from all faces of the cavity (Klingner and Shewchuk
 // 2007).
 
@@ -14,16 +14,16 @@
 namespace sterna::volmesh {
 namespace {
 
-constexpr int k_max_steps = 14;          ///< steps of one smoothing
-constexpr double k_nearly_worst = 1.08;  ///< qualities within this factor of the worst contribute to the direction
+constexpr int k_max_steps = 14;          ///< largest number of steps of one smoothing
+constexpr double k_nearly_worst = 1.08;  ///< tetrahedra whose quality is within this factor of the worst contribute to the direction
 constexpr std::size_t k_max_gradients = 8;
-constexpr double k_difference = 1e-4;      ///< step of the numerical gradients over the size of the star: leaves half of the digits of the quality
-constexpr std::size_t k_max_cavity = 100;  ///< tetrahedra
-/// Heights of trial points above a face, in radii of its inscribed circle.
+constexpr double k_difference = 1e-4;      ///< step of numerical gradients relative to the size of the star; half of the digits of the quality remain
+constexpr std::size_t k_max_cavity = 100;  ///< largest number of tetrahedra in a cavity
+/// Heights of trial points above a face, in units of the radius of its inscribed circle.
 constexpr std::array<double, 3> k_heights = {0.5, 1.0, 2.0};
 constexpr std::size_t k_smoothed_places = 3;
 
-/// Shortest vector in the convex hull of gradients (Gilbert's iteration; a few digits are sufficient).
+/// Returns the shortest vector in the convex hull of gradients (Gilbert's iteration; a few digits are sufficient).
 Vec3 shortest_in_hull(std::span<const Vec3> gradients) {
   Vec3 x = gradients[0];
   for (int i = 0; i < 30; ++i) {
@@ -87,7 +87,7 @@ std::pair<Vec3, double> Region::best_place(std::span<const Face> faces, const Ve
     for (const Vec3& direction : {down, shortest_in_hull({worst.data(), n})}) {
       const double length = norm(direction);
       if (!(length * size > 1e-3 * now)) continue;
-      // Halve the step until the sum falls; a step that succeeds at once may be longer next time.
+      // The step is halved until the sum falls. If the first step succeeds, the next one may be longer.
       double trial = reach;
       for (int halving = 0; halving < 6 && !has_gained; ++halving, trial *= 0.5) {
         const Vec3 moved = p + (trial / length) * direction;
@@ -153,8 +153,9 @@ void Region::try_contractions(std::uint32_t tet, Change& best) {
   }
 }
 
-/// Tries to insert a point at the tetrahedron's centre and above its faces (there a point serves two flat triangles that one flat tetrahedron joins). If that
-/// fails: at its neighbours' centres and at the midpoints of its edges. The locations are ranked without smoothing; only the best are smoothed.
+/// Tries to insert a point at the tetrahedron's centre and above its faces. (Above a face, the point is useful for two flat triangles that one flat tetrahedron
+/// joins.) If that fails, tries the centres of its neighbours and the midpoints of its edges. The locations are ranked without smoothing, and only the best are
+/// smoothed.
 void Region::try_insertions(std::uint32_t tet, Change& best) {
   const Corners c = tets_[tet].corners;
   const auto center = [&](const Corners& x) { return 0.25 * (points_[x[0]] + points_[x[1]] + points_[x[2]] + points_[x[3]]); };

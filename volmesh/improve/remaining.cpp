@@ -19,7 +19,7 @@ constexpr std::size_t k_max_listed = 10'000;
 
 struct Remaining {
   std::uint32_t tet = 0;
-  double smallest = 0.0;  ///< dihedral angles, radians
+  double smallest = 0.0;  ///< radians, smallest and largest dihedral angle
   double largest = 0.0;
   std::uint32_t triangle = k_unforced;  ///< boundary triangle that forces the tetrahedron
   /// Distance beyond the limits, used for sorting.
@@ -47,7 +47,7 @@ class Surroundings {
     }
   }
 
-  /// Returns the boundary triangle with this side, seen from the domain; k_unforced if there is none.
+  /// Returns the boundary triangle that contains this directed side, seen from the domain; k_unforced if there is none.
   std::uint32_t triangle_at(std::uint32_t a, std::uint32_t b) const {
     const auto found = triangle_.find({a, b});
     return found == triangle_.end() ? k_unforced : found->second;
@@ -62,7 +62,7 @@ class Surroundings {
     }
     return result;
   }
-  /// Returns the smallest angle between boundary triangles, through the domain, at an edge of the tetrahedron.
+  /// Returns the smallest angle through the domain between boundary triangles at an edge of the tetrahedron.
   double smallest_between(const Corners& tet) const {
     double smallest = k_none;
     for (const std::uint32_t a : tet)
@@ -90,7 +90,7 @@ class Surroundings {
     const auto& v = boundary_.triangles[triangle];
     return *std::ranges::find_if(v, [&](std::uint32_t x) { return x != a && x != b; });
   }
-  /// Angle at the edge a b through the domain, into which the normals of (a, b, c) and (b, a, d) point.
+  /// Returns the angle through the domain at the edge a b. The normals of (a, b, c) and (b, a, d) point into the domain.
   double domain_angle(std::uint32_t a, std::uint32_t b, std::uint32_t c, std::uint32_t d) const {
     const Vec3 n = cross(point(b) - point(a), point(c) - point(a)), m = cross(point(a) - point(b), point(d) - point(b));
     const double bend = angle_between(n, m);
@@ -102,7 +102,7 @@ class Surroundings {
   std::map<std::array<std::uint32_t, 2>, std::uint32_t> triangle_;  ///< triangle at each requested side
 };
 
-/// Finds the boundary triangle that forces each bad tetrahedron, from the boundary triangles below it.
+/// Finds the boundary triangle that forces each bad tetrahedron among the boundary triangles that are faces of the tetrahedron.
 void find_forcing(const TetraBoundary& boundary, const TetraResult& tets, const Surroundings& surroundings, const ImproveOptions& options,
                   std::vector<Remaining>& bad, const RunContext& context) {
   std::vector<std::uint32_t> wanted;

@@ -9,7 +9,7 @@ namespace sterna::volmesh {
 namespace {
 
 constexpr std::size_t k_scan_chunk = 1 << 15;
-/// Rounding difference between tet_quality() and the angles.
+/// Tolerance for the rounding difference between tet_quality() and the angles.
 constexpr double k_rounding = 1e-9;
 
 }  // namespace

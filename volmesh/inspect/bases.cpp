@@ -1,7 +1,7 @@
-// Blunt bases: strips between two nearly parallel sharp convex edges, such as the base of a trailing edge. A layer much taller than the strip is thick leans
-// out over both edges, and the sides of its prisms deviate far from the lines between cell centres (non-orthogonality).
-// Steps: from the middle of each sharp convex edge straight across the adjacent facet, over smooth edges, to the next sharp edge or the largest relevant
-// distance; the strip is a base if that edge is nearly parallel to the first.
+// Finds blunt bases: strips between two nearly parallel sharp convex edges, such as the base of a trailing edge. A layer much taller than the thickness of the
+// strip leans outwards over both edges. The sides of its prisms then deviate far from the lines between cell centres (non-orthogonality). From the middle of
+// each sharp convex edge, a straight line across the adjacent facet and over smooth edges is followed to the next sharp edge, or to the largest relevant
+// distance. The strip is a base if that edge is nearly parallel to the first one.
 #include <cmath>
 
 #include "geom/base/number_text.h"
@@ -11,12 +11,13 @@
 namespace sterna::volmesh {
 namespace {
 
-constexpr double k_taper = 0.05;    ///< sine of the angle between the two edges of a base: beyond it the facet tapers to a point, which no thickness can repair
-constexpr double k_enough = 0.1;    ///< recommended ratio of thickness to height: hardly any face leans there (docs/measurements/inspect.md)
-constexpr int k_most_steps = 1000;  ///< triangles crossed; a wider strip is a surface, not an edge
+/// Sine of the angle between the two edges of a base: with a larger angle the facet tapers to a point, which no thickness can correct.
+constexpr double k_taper = 0.05;
+constexpr double k_enough = 0.1;    ///< recommended ratio of thickness to height, with which hardly any face leans (docs/measurements/inspect.md)
+constexpr int k_most_steps = 1000;  ///< largest number of crossed triangles; a wider strip is a surface, not a base
 
 struct Base {
-  HalfedgeId edge;         ///< half-edge of the triangle on the strip
+  HalfedgeId edge;         ///< half-edge of the triangle on the strip, at its border
   double thickness = 0.0;  ///< m
   double height = 0.0;     ///< m, requested height of the layer
 };
@@ -58,10 +59,10 @@ class BaseSurvey {
   Vec3 along(HalfedgeId h) const { return wall_.points[topology_.to(h)] - wall_.points[topology_.from(h)]; }
 
   bool is_sharp(HalfedgeId h) const { return dot(normal(h), normal(topology_.twin(h))) < sharp_cosine_; }
-  /// Returns true for a sharp convex edge inside the walls with layers.
+  /// Returns true for a sharp convex edge between walls with layers.
   bool is_ridge(HalfedgeId h) const { return !topology_.is_boundary(h) && is_sharp(h) && dot(cross(normal(h), normal(topology_.twin(h))), along(h)) > 0.0; }
 
-  /// Thickness of the strip bounded by the half-edge, at its middle; 0: there is none, or it is thicker than `most`.
+  /// Returns the thickness of the strip beside the half-edge, at its middle; 0 if there is no strip or it is thicker than `most`.
   double thickness_behind(HalfedgeId first, double most) const {
     const Vec3 edge = normalized(along(first));
     Point place = 0.5 * (wall_.points[topology_.from(first)] + wall_.points[topology_.to(first)]);
@@ -82,11 +83,11 @@ class BaseSurvey {
     return 0.0;
   }
 
-  /// Exit point of a straight line that enters the triangle over the half-edge `h`; invalid if the line runs along an edge.
+  /// Returns the point at which a straight line leaves the triangle that it entered across the half-edge `h`; invalid if the line runs along an edge.
   std::pair<HalfedgeId, Point> across(HalfedgeId h, const Point& place, const Vec3& direction) const {
-    const Vec3 side = cross(normal(h), direction);  // left of the direction
+    const Vec3 side = cross(normal(h), direction);  // direction to the left of the line
     const HalfedgeId second = next(h), third = next(second);
-    const Point& corner = wall_.points[topology_.to(second)];  // opposite to the entry edge
+    const Point& corner = wall_.points[topology_.to(second)];  // corner opposite to the edge of entry
     const HalfedgeId exit = dot(side, corner - place) > 0.0 ? second : third;
     const Point &a = wall_.points[topology_.from(exit)], &b = wall_.points[topology_.to(exit)];
     const double left = dot(side, a - place), right = dot(side, b - place);

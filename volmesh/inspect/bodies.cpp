@@ -1,4 +1,4 @@
-// Connected parts of the surface: number of bodies, and bodies inside the solid of another body.
+// Connected parts of the surface: finds the number of bodies, and bodies inside the solid of another body.
 #include "geom/base/number_text.h"
 #include "geom/math/measures.h"
 #include "volmesh/inspect/survey.h"
@@ -7,9 +7,9 @@ namespace sterna::volmesh {
 namespace {
 
 struct BodyPart {
-  TriangleId first;  ///< lowest triangle
+  TriangleId first;  ///< lowest triangle of the part
   std::int64_t n_triangles = 0;
-  double volume = 0.0;  ///< m^3, signed: negative where the normals point inwards
+  double volume = 0.0;  ///< m^3, signed; negative if the normals point inwards
   Box box;
   bool is_open = false;
 };
@@ -42,7 +42,7 @@ void survey_bodies(const Survey& survey, const Topology& topology) {
   const Components components = connected_components(mesh, topology);
   const std::vector<BodyPart> parts = parts_of(mesh, topology, components);
   survey.report.n_bodies = components.count;
-  // The part that encloses the fluid also has inward normals; its bounding box equals that of the whole surface.
+  // The part that encloses the fluid also has inward normals. Its bounding box equals that of the whole surface.
   const Box all = bounding_box(mesh);
   const auto encloses_all = [&](const BodyPart& part) { return part.box.min == all.min && part.box.max == all.max; };
   const auto is_cavity = [&](const BodyPart& part) { return !part.is_open && part.volume < 0.0 && !encloses_all(part); };

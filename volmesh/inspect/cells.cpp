@@ -1,4 +1,4 @@
-// Checks first height and last layer against the edges of the wall, and the first height against the flow.
+// Compares the first height and the last layer with the edges of the wall, and the first height with the flow.
 #include <cmath>
 
 #include "geom/base/number_text.h"
@@ -11,15 +11,15 @@
 namespace sterna::volmesh {
 namespace {
 
-constexpr double k_noticed_area = 0.01;  ///< share of the area above which a mismatch of the last layer is reported
-constexpr double k_growth_step = 0.005;  ///< added to a recommended growth, so that it is sufficient when rounded
-constexpr double k_steep_growth = 1.5;   ///< no larger growth is recommended: solvers lose the boundary layer's profile
-constexpr int k_most_layers = 1000;      ///< largest recommended number; more layers are no option
-constexpr double k_y_plus_factor = 2.0;  ///< factor on the target y+ within which a flat-plate estimate is uncertain
+constexpr double k_noticed_area = 0.01;  ///< fraction of the area above which a mismatch of the last layer is reported
+constexpr double k_growth_step = 0.005;  ///< added to a recommended growth, so that the rounded value is sufficient
+constexpr double k_steep_growth = 1.5;   ///< largest recommended growth; with larger growth solvers do not resolve the profile of the boundary layer
+constexpr int k_most_layers = 1000;      ///< largest recommended number of layers
+constexpr double k_y_plus_factor = 2.0;  ///< factor within which the y+ of a flat-plate estimate may differ from the target
 
-/// Requested layer cells at a vertex by eq. (1) and the caps, before any reduction.
+/// Requested cells of the layer at a vertex by eq. (1) and the upper limits, before any reduction.
 struct Cells {
-  double first = 0.0, last = 0.0;  ///< first and last height, m
+  double first = 0.0, last = 0.0;  ///< m, first and last height
   double edge = 0.0;               ///< m
   double top_ratio() const { return last / (k_regular_height * edge); }
 };
@@ -42,7 +42,7 @@ Cells cells_at(const LayerBase& base, const EnvelopeScale& scale, VertexId v) { 
 
 struct Misfit {
   std::vector<Suspect<VertexId>> places;
-  double area = 0.0;  ///< share of the area
+  double area = 0.0;  ///< fraction of the area
 };
 
 class CellSurvey {
@@ -99,7 +99,8 @@ class CellSurvey {
     add_finding(survey_.report, std::move(finding), where);
   }
 
-  /// Returns the vertex at which one tenth of the mismatches are worse: recommendations are made for it, so that single locations do not decide.
+  /// Returns the vertex at which one tenth of the mismatches are worse. Recommendations are made for this vertex, so that single locations do not determine
+  /// them.
   VertexId typical(const Misfit& misfit) const { return worst(misfit.places, misfit.places.size() / 10 + 1).back().id; }
 
   void add_tall(const Misfit& tall) const {
@@ -130,10 +131,10 @@ class CellSurvey {
     add(std::move(finding), thin, true);
   }
 
-  /// Returns the least number of layers, more than the current one, with which the last layer is not thinner than the limit; 0 if there is none (another cap is
-  /// reached first).
+  /// Returns the smallest number of layers, larger than the present one, with which the last layer is not thinner than the limit. Returns 0 if there is none,
+  /// because another upper limit is reached first.
   int enough_layers(VertexId v, double ratio) const {
-    if (!is_automatic(scale_.total_height(v))) return 0;  // with a given total height, more layers are thinner
+    if (!is_automatic(scale_.total_height(v))) return 0;  // with a given total height, more layers would be thinner
     for (int n = scale_.n(v) + 1; n <= k_most_layers; ++n)
       if (cells_at(base_, scale_, v, n).top_ratio() * ratio >= 1.0) return n;
     return 0;

@@ -1,5 +1,5 @@
-// Vertices that nearly touch an unconnected wall across the fluid.
-// Method: each vertex searches for triangles within a small share of its edges that belong neither to it nor to its neighbours.
+// Finds vertices that nearly touch an unconnected wall across the fluid. Each vertex searches for triangles within a small fraction of its edges. Triangles at
+// the vertex and at its neighbours are excluded.
 #include "geom/base/number_text.h"
 #include "geom/math/nearest.h"
 #include "volmesh/inspect/survey.h"
@@ -7,13 +7,13 @@
 namespace sterna::volmesh {
 namespace {
 
-/// Largest cosine between the normals of vertex and triangle: triangles above it do not face the vertex across the fluid, but are behind the wall.
+/// Largest cosine between the normals of vertex and triangle. Triangles with a larger cosine do not face the vertex across the fluid; they are behind the wall.
 constexpr double k_facing_cosine = 0.0;
 
 struct Contact {
   VertexId vertex;
   TriangleId opposite;
-  double share = 0.0;  ///< distance as a share of the mean edge at the vertex
+  double share = 0.0;  ///< distance as a fraction of the mean edge at the vertex
   friend bool operator<(const Contact& a, const Contact& b) { return a.share != b.share ? a.share < b.share : a.vertex < b.vertex; }
 };
 
@@ -21,7 +21,7 @@ class ContactFinder {
  public:
   ContactFinder(const LayerBase& base, const Collider& collider) : base_(base), collider_(collider) {}
 
-  /// Finds the contact of a vertex. `buffer` is scratch.
+  /// Finds the contact of a vertex. `buffer` is scratch memory.
   void find(VertexId v, double limit, std::vector<std::uint32_t>& buffer, std::vector<Contact>& contacts) const {
     const auto outgoing = base_.topology.outgoing(v);
     if (outgoing.empty()) return;
@@ -35,7 +35,7 @@ class ContactFinder {
       const Point q = nearest_on_triangle(p, corners(base_.wall, t));
       const double share = distance(p, q) / base_.mean_edge[v];
       if (share >= nearest.share && !(share == nearest.share && t < nearest.opposite)) continue;
-      // The fluid must lie between them: ahead of the vertex, and in front of the triangle.
+      // The fluid must lie between vertex and triangle: the triangle ahead of the vertex, and the vertex in front of the triangle.
       if (dot(q - p, base_.vertex_normal[v]) <= 0.0 || dot(p - q, base_.unit_normal[t]) <= 0.0) continue;
       nearest.share = share;
       nearest.opposite = t;
@@ -50,7 +50,7 @@ class ContactFinder {
     box.add(p + Vec3{reach, reach, reach});
     return box;
   }
-  /// Returns true for a triangle at the vertex or at one of its neighbours: a corner, no contact.
+  /// Returns true for a triangle at the vertex or at one of its neighbours. Such a triangle is no contact.
   bool is_own(VertexId v, TriangleId t) const {
     for (const VertexId corner : base_.wall.triangles[t]) {
       if (corner == v) return true;

@@ -1,4 +1,4 @@
-// Pairs of triangles that intersect or touch, by the exact test.
+// Finds pairs of triangles that intersect or touch, by the exact test.
 #include "geom/math/measures.h"
 #include "geom/mesh/find_crossings.h"
 #include "volmesh/inspect/survey.h"
@@ -6,7 +6,7 @@
 namespace sterna::volmesh {
 namespace {
 
-/// Pairs kept for the picture: more are of no use.
+/// Largest number of pairs that are stored for the picture.
 constexpr std::size_t k_kept_pairs = 200000;
 
 }  // namespace

@@ -1,4 +1,5 @@
-// Pairs of neighbours: folded onto each other, of very different size, at an edge that is too short, or at an edge that bends too much for a smooth surface.
+// Finds pairs of neighbouring triangles that are folded onto each other, that differ very much in size, that share an edge that is too short, or whose edge
+// bends too much for a smooth surface.
 #include <cmath>
 
 #include "geom/base/number_text.h"
@@ -13,7 +14,7 @@ double mean_edge(const TriMesh& mesh, TriangleId t) {
   return (distance(a, b) + distance(b, c) + distance(c, a)) / 3.0;
 }
 
-/// Unit normals of all triangles, computed once: each edge needs those of both sides.
+/// Returns the unit normals of all triangles. They are computed once, because each edge needs the normals of both sides.
 Column<TriangleId, Vec3> unit_normals(const TriMesh& mesh, const RunContext& context) {
   Column<TriangleId, Vec3> normals(mesh.n_triangles());
   parallel_for(context, normals.size(), [&](std::size_t i) {
@@ -32,7 +33,7 @@ std::string edge_text(HalfedgeId h, const Topology& topology) {
   return twin.is_valid() ? "edge of triangles " + first + " and " + std::to_string(triangle_of(twin).value()) : "edge of triangle " + first;
 }
 
-/// Returns true for the half-edge with the lower number of each edge.
+/// Returns true for the half-edge of each edge that has the lower number.
 bool is_first(const Topology& topology, HalfedgeId h) { return topology.is_boundary(h) || h < topology.twin(h); }
 
 bool is_concave(const TriMesh& mesh, const Topology& topology, HalfedgeId h, const Vec3& n, const Vec3& m) {
@@ -76,7 +77,7 @@ EdgeSuspects find_edges(const Survey& survey, const Topology& topology, const Co
           if (topology.is_boundary(h)) continue;
           const TriangleId t = triangle_of(h), u = triangle_of(topology.twin(h));
           const Vec3 &n = normals[t], &m = normals[u];
-          // The angle between the facets is pi if flat, 0 if back to back.
+          // The angle between the facets is pi if they are flat, and 0 if they lie back to back.
           if (dot(n, m) < fold_cosine) part.folded.push_back({h, angle_between(n, m) - std::numbers::pi});
           if (dot(n, m) < coarse_cosine && dot(n, m) > feature_cosine) part.coarse.push_back({h, angle_between(n, m)});
           const double first = size[t], second = size[u];

@@ -1,4 +1,4 @@
-// Sliver triangles (needles and caps): triangles with a small angle, independent of their neighbours.
+// Finds sliver triangles (needles and caps), which are triangles with a small angle. This does not depend on their neighbours.
 #include "geom/base/number_text.h"
 #include "geom/math/measures.h"
 #include "volmesh/inspect/survey.h"
@@ -6,7 +6,7 @@
 namespace sterna::volmesh {
 namespace {
 
-/// Angle opposite the shortest edge.
+/// Returns the smallest angle, which is opposite the shortest edge.
 double smallest_angle(const std::array<Point, 3>& p) {
   const std::array<double, 3> opposite = {norm2(p[2] - p[1]), norm2(p[0] - p[2]), norm2(p[1] - p[0])};
   const std::size_t k = opposite[0] <= opposite[1] ? (opposite[0] <= opposite[2] ? 0 : 2) : (opposite[1] <= opposite[2] ? 1 : 2);
@@ -21,7 +21,7 @@ void survey_needles(const Survey& survey) {
   const auto needles = find_suspects<TriangleId>(survey.context, survey.mesh.n_triangles(), [&](TriangleId t, auto& list) {
     const double angle = smallest_angle(corners(survey.mesh, t));
     angles[t.index()] = static_cast<float>(angle / k_degree);
-    if (!(angle >= limit)) list.push_back({t, -angle});  // also true for non-finite coordinates
+    if (!(angle >= limit)) list.push_back({t, -angle});  // this is also true for coordinates that are not finite
   });
   survey.add_field("smallest_angle", "smallest angle of the triangle", "deg", false, std::move(angles));
   if (needles.empty()) return;

@@ -1,7 +1,7 @@
-// Prediction of the layer: a short form of the first steps of the envelope, on the same walls and with the same requirements as in volume_mesh.
-// Steps: targets and directions; directions smoothed as in the envelope, but only once where elements are tangled; heights where growth lines meet and where
-// elements are warped, increased again as far as they are valid; gaps between opposing walls shared, clearance kept.
-// Left out: smoothing of heights and of the envelope itself (they keep 0.94 of the target), the exact tests for collisions (gaps represent most of them), the
+// Predicts the layer by a short form of the first steps of the envelope, on the same walls and with the same requirements as in volume_mesh. The steps are:
+// targets and directions; smoothing of directions as in the envelope, but only one round where elements are tangled; heights limited where growth lines meet
+// and where elements are warped, and increased again as far as they are valid; gaps between opposing walls shared, and clearance kept. The following is left
+// out: smoothing of heights and of the envelope itself (these keep 0.94 of the target), the exact tests for collisions (gaps represent most of them), and the
 // optimiser, which raises heights that these steps lower too much. docs/measurements/inspect.md compares the prediction with finished meshes.
 #include <array>
 #include <cmath>
@@ -17,12 +17,12 @@
 namespace sterna::volmesh {
 namespace {
 
-constexpr double k_full_share = 0.9;   ///< share of the target that counts as full height, as in the report of a mesh
-constexpr int k_predicted_sweeps = 3;  ///< sweeps over all directions, as in the envelope's smoothing step
-/// Sweeps of the wide smoothing around concave locations: a third of the envelope's number, which takes most of the time and changes the coverage by less than
-/// 1 % of the area.
+constexpr double k_full_share = 0.9;   ///< fraction of the target that counts as full height, as in the report of a mesh
+constexpr int k_predicted_sweeps = 3;  ///< number of sweeps over all directions, as in the smoothing step of the envelope
+/// Number of sweeps of the wide smoothing around concave locations. It is a third of the number in the envelope, because these sweeps take most of the time and
+/// change the coverage by less than 1 % of the area.
 constexpr int k_concave_sweeps = 16;
-constexpr int k_tangled_rings = 6;  ///< as in the envelope
+constexpr int k_tangled_rings = 6;  ///< number of rings, as in the envelope
 constexpr int k_tangled_sweeps = 32;
 
 struct Heights {
@@ -30,7 +30,7 @@ struct Heights {
   std::vector<WallGap> gaps;
 };
 
-/// One round of smooth_tangled_regions, which makes up to six.
+/// Makes one round of smooth_tangled_regions, which itself makes up to six.
 void smooth_tangled(const LayerBase& base, const Classification& classes, Envelope& envelope, const RunContext& context) {
   const std::vector<TriangleId> bad = invalid_macros(base, envelope, context);
   if (bad.empty()) return;
@@ -62,7 +62,7 @@ Heights predict(MeshingSite& site, const RunContext& context) {
   return heights;
 }
 
-/// Groups of reasons, for the advice.
+/// Groups of reasons, used for the advice.
 enum class Cause : std::uint8_t { gap, corner, other };
 Cause cause_of(HeightLimit limit) {
   switch (limit) {
@@ -147,10 +147,10 @@ class HeightSurvey {
   }
 
  private:
-  /// Returns true if the length of the growth line is sufficient: the optimiser later turns leaning lines to the normal.
+  /// Returns true if the length of the growth line is sufficient. The length is tested, because the optimiser later turns inclined growth lines to the normal.
   bool is_full(VertexId v) const { return envelope_.height[v] >= k_full_share * envelope_.target[v]; }
   bool is_compressed(VertexId v) const { return !envelope_.is_collapsed(v) && envelope_.height[v] < room(v); }
-  /// m, space that the first cell of the growth line needs (EnvelopeScale::room_for_first_cell).
+  /// Returns the space in metres that the first cell of the growth line needs (EnvelopeScale::room_for_first_cell).
   double room(VertexId v) const { return scale_.room_for_first_cell(v, scale_.n(v)); }
   double share_of(VertexId v) const { return envelope_.target[v] > 0.0 ? envelope_.height[v] / envelope_.target[v] : k_no_value; }
   const std::string& patch_of(VertexId v) const { return survey_.patch_of(map_.triangle(triangle_of(base_.topology.outgoing(v).front()))); }
@@ -179,7 +179,7 @@ class HeightSurvey {
 
   void add_lowered(const std::vector<Suspect<VertexId>>& lowered) const {
     std::array<double, 3> area{};
-    double least = 0.0;  // m, space left by the gaps at the worst location
+    double least = 0.0;  // m, space that the gaps leave at the worst location
     std::string patch;
     double least_share = 2.0;
     for (const auto& s : lowered) {
@@ -244,7 +244,7 @@ class HeightSurvey {
   const std::vector<WallGap>& gaps_;
   EnvelopeScale scale_;
   WallMap map_;
-  double all_ = 0.0;  ///< m^2
+  double all_ = 0.0;  ///< m^2, total area
 };
 
 }  // namespace

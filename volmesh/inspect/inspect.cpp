@@ -1,4 +1,4 @@
-// The driver: shape first, then the layer on the walls as volume_mesh would build it.
+// This is the driver. It first inspects the shape, then the layer on the walls as volume_mesh would build it.
 #include "volmesh/inspect/inspect.h"
 
 #include <memory>
@@ -12,7 +12,7 @@
 namespace sterna::volmesh {
 namespace {
 
-/// Placeholder first height for steps that require one but do not depend on it: share of the body length.
+/// Placeholder for the first height in steps that require one but do not depend on it, as a fraction of the body length.
 constexpr double k_stand_in_height = 1e-6;
 
 InspectReport start(const TriMesh& surface) {
@@ -54,7 +54,7 @@ void add_refusal(const Survey& survey, const Error& error) {
                   .advice = info.hint};
   std::vector<TriangleId> where;
   if (info.code == ErrorCode::open_surface) {
-    where = triangles_at_holes(survey);  // one triangle per edge
+    where = triangles_at_holes(survey);  // one triangle at each edge
     finding.kind = FindingKind::open;
     finding.count = static_cast<std::int64_t>(where.size());
   }
@@ -71,7 +71,7 @@ std::string first_height_advice(const Survey& survey) {
   return "first_height = " + number_text(first.height, k_advice_digits) + " (" + describe(first) + ")";
 }
 
-/// Returns the walls with their outer boundary, as volume_mesh makes them; null if volume_mesh rejects them, which is reported.
+/// Returns the walls with their outer boundary, as volume_mesh makes them. Returns null if volume_mesh rejects them; the rejection is reported.
 std::unique_ptr<MeshingSite> site_of(const Survey& survey, const MeshCase& options) {
   try {
     return std::make_unique<MeshingSite>(survey.mesh, options, survey.context);
@@ -82,7 +82,7 @@ std::unique_ptr<MeshingSite> site_of(const Survey& survey, const MeshCase& optio
   }
 }
 
-/// Runs the checks that need no layer, for a surface without walls with layers.
+/// Runs the checks that need no layer. Used for a surface that has no walls with layers.
 void survey_shape(const Survey& survey) {
   const LayerBase base(survey.mesh, survey.context);
   const WallMap map(survey.mesh);
@@ -91,7 +91,7 @@ void survey_shape(const Survey& survey) {
   if (!survey.report.find(FindingKind::crossing)) survey_contacts(survey, base, Collider(base, nullptr, survey.context), map);
 }
 
-/// Returns the surface's own topology, unless it equals that of the walls.
+/// Returns the topology of the surface, or nothing if it equals that of the walls.
 std::optional<Topology> topology_beside(const TriMesh& mesh, const MeshingSite* site, const RunContext& context) {
   if (site && site->domain.wall.triangles == mesh.triangles) return std::nullopt;
   return Topology(mesh, context);
@@ -104,7 +104,7 @@ InspectReport inspect_triangles(const TriMesh& triangles, const InspectRequest& 
   const Survey survey{report.mesh, request, context, report};
   survey_unit(survey);
   survey_needles(survey);
-  leave_out(survey, "crossings, folds, visibility, gaps, heights of the layer", "the triangles could not be joined into a surface",
+  leave_out(survey, "crossings, folds, growth directions, gaps and layer heights", "the triangles could not be joined into a surface",
             "repair the findings of severity error first");
   return report;
 }
@@ -119,7 +119,7 @@ InspectReport inspect_wall(const TriMesh& surface, const InspectRequest& request
   context.progress(0.1);
   const bool is_known = has_first_height(request.volume);
   MeshCase options = request.volume;
-  options.needles.split_needles = 0.0;  // findings refer to the surface as it was given
+  options.needles.split_needles = 0.0;  // sliver triangles are not split, because findings refer to the given surface
   if (!is_known) options.envelope.first_height = k_stand_in_height * report.length;
   const std::unique_ptr<MeshingSite> site = site_of(survey, options);
   context.progress(0.5);

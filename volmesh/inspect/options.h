@@ -1,4 +1,4 @@
-// Limits of the pre-flight inspection: values above which a finding is reported.
+// Limits of the pre-flight inspection. A finding is reported if a value exceeds its limit.
 #pragma once
 
 #include <numbers>

@@ -24,7 +24,7 @@ std::string_view to_string(FindingKind kind) { return k_kinds[static_cast<std::s
 std::string count_of(std::int64_t n, const std::string& one, const std::string& many) { return std::to_string(n) + " " + (n == 1 ? one : many); }
 
 std::string percent(double share) {
-  constexpr double k_whole = 0.1;  ///< no decimals above this value
+  constexpr double k_whole = 0.1;  ///< values above this are printed without decimals
   const double value = 100.0 * share;
   return (share >= k_whole ? std::to_string(std::lround(value)) : number_text(value, k_advice_digits)) + " %";
 }

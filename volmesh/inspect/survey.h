@@ -16,14 +16,14 @@
 
 namespace sterna::volmesh {
 
-/// A location beyond its limit, before the worst are selected.
+/// A location beyond its limit, before the worst locations are selected.
 template <class Id>
 struct Suspect {
   Id id;
   double badness = 0.0;  ///< larger is worse
 };
 
-/// Returns the worst suspects first, by index if they are equally bad; at most `n`.
+/// Returns at most `n` suspects, the worst first, and sorted by index if they are equally bad.
 template <class Id>
 std::vector<Suspect<Id>> worst(std::vector<Suspect<Id>> suspects, std::size_t n) {
   const auto is_worse = [](const Suspect<Id>& a, const Suspect<Id>& b) { return a.badness != b.badness ? a.badness > b.badness : a.id < b.id; };
@@ -33,7 +33,7 @@ std::vector<Suspect<Id>> worst(std::vector<Suspect<Id>> suspects, std::size_t n)
   return suspects;
 }
 
-/// The surface with the common data of all parts.
+/// The surface, with the data that all parts of the inspection use.
 struct Survey {
   const TriMesh& mesh;
   const InspectRequest& request;
@@ -43,21 +43,21 @@ struct Survey {
   std::size_t n_places() const { return static_cast<std::size_t>(request.limits.max_places); }
   const std::string& patch_of(TriangleId t) const { return mesh.patches[mesh.triangle_patch[t]].name; }
   Point middle(TriangleId t) const;
-  /// Adds a finding whose worst locations are triangles, with its field "finding".
+  /// Adds a finding whose worst locations are triangles, and sets the field "finding".
   void add(Finding finding, const std::vector<Suspect<TriangleId>>& suspects, const std::function<FindingPlace(const Suspect<TriangleId>&)>& place_of) const;
   void add_field(std::string name, std::string title, std::string unit, bool is_at_vertices, std::vector<float> values) const {
     report.fields.push_back({std::move(name), std::move(title), std::move(unit), is_at_vertices, std::move(values)});
   }
 };
 
-/// Appends partial lists in order: for parallel_reduce.
+/// Appends partial lists in order. Used with parallel_reduce.
 template <class T>
 std::vector<T> joined_lists(std::vector<T> a, std::vector<T> b) {
   a.insert(a.end(), b.begin(), b.end());
   return a;
 }
 
-/// Returns suspects of [0, n) in ascending order: test(i, list) appends.
+/// Returns the suspects of [0, n) in ascending order. test(i, list) appends a suspect to the list.
 template <class Id, class Test>
 std::vector<Suspect<Id>> find_suspects(const RunContext& context, std::size_t n, const Test& test) {
   using List = std::vector<Suspect<Id>>;
@@ -71,16 +71,16 @@ std::vector<Suspect<Id>> find_suspects(const RunContext& context, std::size_t n,
       joined_lists<Suspect<Id>>);
 }
 
-/// Maps the walls with layers to the surface that they are part of.
+/// Maps the walls with layers to the surface of which they are part.
 class WallMap {
  public:
-  /// Identity map: the wall is the surface itself.
+  /// Identity map, for which the wall is the surface itself.
   explicit WallMap(const TriMesh& surface) : wall_(surface), n_vertices_(surface.n_vertices()) {}
-  /// Both must outlive this object.
+  /// `surface` and `domain` must outlive this object.
   WallMap(const TriMesh& surface, const Domain& domain);
 
   TriangleId triangle(TriangleId of_wall) const { return wall2surface_ ? (*wall2surface_)[of_wall] : of_wall; }
-  /// Returns values at the wall's vertices as a field on the surface; NaN elsewhere.
+  /// Returns values at the wall's vertices as a field on the surface, with NaN at other vertices.
   std::vector<float> field(const std::vector<double>& at_wall) const;
 
  private:
@@ -90,41 +90,41 @@ class WallMap {
   std::size_t n_vertices_;
 };
 
-/// facets.cpp: sliver triangles; needs no topology.
+/// facets.cpp: finds sliver triangles. It needs no topology.
 void survey_needles(const Survey& survey);
-/// unit.cpp: body length.
+/// unit.cpp: checks the body length.
 void survey_unit(const Survey& survey);
-/// edges.cpp: folds, size jumps, short edges, edges of smooth surfaces (below the feature angle) that bend too much.
+/// edges.cpp: finds folds, size jumps, short edges, and edges of smooth surfaces (below the feature angle) that bend too much.
 void survey_edges(const Survey& survey, const Topology& topology, double feature_angle);
-/// bodies.cpp: connected parts, parts inside other parts.
+/// bodies.cpp: finds connected parts, and parts inside other parts.
 void survey_bodies(const Survey& survey, const Topology& topology);
-/// contacts.cpp: vertices that nearly touch another wall.
-/// \pre no crossings
+/// contacts.cpp: finds vertices that nearly touch another wall.
+/// \pre there are no crossings
 void survey_contacts(const Survey& survey, const LayerBase& base, const Collider& collider, const WallMap& map);
-/// crossings.cpp: pairs of intersecting triangles, exact. Returns true if there are none.
+/// crossings.cpp: finds pairs of intersecting triangles by the exact test. Returns true if there are none.
 bool survey_crossings(const Survey& survey);
-/// visibility.cpp: visibility of all facets of a vertex from one growth direction.
+/// visibility.cpp: checks the visibility of all facets of a vertex from one growth direction.
 void survey_visibility(const Survey& survey, const LayerBase& base, const WallMap& map);
-/// heights.cpp: the layer, from the first steps of its envelope.
+/// heights.cpp: predicts the layer by the first steps of its envelope.
 void survey_heights(const Survey& survey, MeshingSite& site);
-/// cells.cpp: first height and last layer against the edges.
+/// cells.cpp: compares first height and last layer with the edges.
 void survey_cells(const Survey& survey, const MeshingSite& site);
-/// bases.cpp: blunt bases that are much thinner than the layer requested on them.
+/// bases.cpp: finds blunt bases that are much thinner than the layer requested on them.
 void survey_bases(const Survey& survey, const MeshingSite& site);
-/// wake.cpp: a body in a farfield without any size source.
+/// wake.cpp: reports a body in a farfield without any size source.
 void survey_wake(const Survey& survey);
-/// cells.cpp: requested height of the layer at a vertex, before any reduction, m.
+/// cells.cpp: returns the requested height in metres of the layer at a vertex, before any reduction.
 double asked_height(const LayerBase& base, const EnvelopeScale& scale, VertexId v);
-/// cells.cpp: checks the first height against the flow.
+/// cells.cpp: compares the first height with the flow.
 void survey_y_plus(const Survey& survey);
 
-/// "12 triangles", "1 triangle".
+/// Formats a count, such as "12 triangles" or "1 triangle".
 std::string count_of(std::int64_t n, const std::string& one, const std::string& many);
-/// "12.4 %", "98 %": a human-readable share.
+/// Formats a fraction, such as "12.4 %" or "98 %".
 std::string percent(double share);
-/// Digits of numbers in messages: lengths up to 9999 without an exponent.
+/// Number of digits in messages. With it, lengths up to 9999 have no exponent.
 inline constexpr int k_text_digits = 4;
-/// Digits of recommended values.
+/// Number of digits of recommended values.
 inline constexpr int k_advice_digits = 2;
 
 }  // namespace sterna::volmesh

@@ -1,4 +1,4 @@
-// A body length outside the range of aircraft: most likely the file has another unit.
+// Checks if the body length is outside the range of aircraft. In that case the file most likely has another unit.
 #include <array>
 
 #include "geom/base/number_text.h"

@@ -1,4 +1,4 @@
-// Visibility of all facets of a vertex from one growth direction: the smallest cap that contains their normals.
+// Checks the visibility of all facets of a vertex from one growth direction, by the smallest cap that contains their normals.
 #include <cmath>
 
 #include "geom/base/number_text.h"
@@ -7,7 +7,7 @@
 namespace sterna::volmesh {
 namespace {
 
-/// Cosines below this are rounding: there is no direction in which all facets are visible. As in the envelope's initial step.
+/// Cosines below this value are rounding errors: there is no direction from which all facets are visible. The value is that of the envelope's initial step.
 constexpr double k_visible = 1e-9;
 
 void add_vertices(const Survey& survey, const LayerBase& base, const WallMap& map, Finding finding, const std::vector<Suspect<VertexId>>& suspects) {

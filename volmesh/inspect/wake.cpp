@@ -1,4 +1,4 @@
-// Wake of the body: its resolution affects the drag (docs/verification.md).
+// Checks if the wake of the body is refined, because its resolution affects the drag (docs/verification.md).
 #include "volmesh/case/body_wake.h"
 #include "volmesh/inspect/survey.h"
 

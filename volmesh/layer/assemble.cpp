@@ -11,7 +11,7 @@ namespace sterna::volmesh {
 
 namespace {
 
-/// Returns the number of each outer vertex as a point of the boundary: its growth line, or a number after all growth lines.
+/// Returns the number of each outer vertex as a point of the boundary: the number of its growth line, or a number after all growth lines.
 std::vector<std::uint32_t> outer_points(const ClosedOuter& outer, std::size_t n_lines) {
   std::vector<std::uint32_t> numbers;
   numbers.reserve(outer.mesh.n_vertices());
@@ -78,7 +78,7 @@ std::size_t n_layer_nodes(const LayerBlock& layers) {
   return n;
 }
 
-/// Growth line whose top each node of the layer is; k_no_line for nodes below the tops.
+/// For each node of the layer: the growth line whose top it is; k_no_line for nodes below the tops.
 constexpr std::uint32_t k_no_line = 0xffffffffu;
 std::vector<std::uint32_t> lines_of_tops(const LayerBlock& layers, std::size_t n_nodes) {
   std::vector<std::uint32_t> lines(n_nodes, k_no_line);
@@ -86,13 +86,13 @@ std::vector<std::uint32_t> lines_of_tops(const LayerBlock& layers, std::size_t n
   return lines;
 }
 
-/// Returns true for a triangle of the outer boundary: its nodes are tops or nodes outside the layer. The sides of cells beside a growth line that has ended
-/// have nodes below the tops.
+/// Returns true for a triangle of the outer boundary, whose nodes are tops of growth lines or nodes outside the layer. Sides of cells beside a growth line that
+/// has ended have nodes below the tops.
 bool is_outer(const sterna::BoundaryTriangle& face, std::span<const std::uint32_t> line_of_top) {
   return std::ranges::all_of(face.nodes, [&](NodeId node) { return node.index() >= line_of_top.size() || line_of_top[node.index()] != k_no_line; });
 }
 
-/// Returns the boundary triangles of the outer boundary, ascending.
+/// Returns the boundary triangles that belong to the outer boundary, ascending.
 std::vector<std::size_t> outer_faces(const HybridMesh& layers, std::span<const std::uint32_t> line_of_top) {
   std::vector<std::size_t> faces;
   for (std::size_t t = layers.layers.n_columns(); t < layers.boundary_triangles.size(); ++t)

@@ -1,4 +1,4 @@
-// Joins layer, tetrahedra and outer boundary to one HybridMesh, and prepares the boundary of the volume for the tetrahedra.
+// Joins layer, tetrahedra and outer boundary to one HybridMesh. Prepares the boundary of the volume for the tetrahedra.
 #pragma once
 
 #include <span>
@@ -11,31 +11,33 @@
 
 namespace sterna::volmesh {
 
-/// Closed surface around the tetrahedra: top of the layer (normals away from the wall) and outer boundary (normals into the fluid), with the HybridMesh node
-/// of every point.
+/// Closed surface around the tetrahedra, with the HybridMesh node of every point. It consists of the top of the layer (normals away from the wall) and the
+/// outer boundary (normals into the fluid).
 struct FillBoundary {
   std::vector<Vec3> points;
   std::vector<std::array<std::uint32_t, 3>> triangles;
-  std::vector<std::string> patch_names;       ///< patches of the wall, then of the outer boundary
+  std::vector<std::string> patch_names;       ///< patches of the wall first, then those of the outer boundary
   std::vector<std::uint32_t> triangle_patch;  ///< index into patch_names; a triangle on top of the layer has the patch of its wall triangle
-  std::vector<double> layer_volumes;          ///< volume of the last prism under each triangle, m^3; 0 where there is no prism
-  std::vector<NodeId> point2node;             ///< layer nodes first; outer nodes follow the layer's
+  std::vector<double> layer_volumes;          ///< m^3, volume of the last prism below each triangle; 0 where there is no prism
+  std::vector<NodeId> point2node;             ///< nodes of the layer first, then nodes of the outer boundary
 };
-/// Returns the volume of the prism between the last two nodes of each growth line of a column, m^3; 0 if a growth line is collapsed.
+/// Returns the volume in m^3 of the prism between the last two nodes of each growth line of a column; 0 if a growth line is collapsed.
 double last_prism_volume(const LayerBlock& layers, std::span<const Point> points, std::size_t column);
 FillBoundary fill_boundary(const LayerBase& base, const Extrusion& extrusion, const ClosedOuter& outer);
-/// Returns the fill boundary of a mesh from assemble_layers(). Uses columns and boundary triangles, nodes up to the last of the outer boundary.
-/// \pre all cells of the mesh are columns: close_fans() and close_wakes() have not been called
+/// Returns the fill boundary of a mesh that assemble_layers() made. It uses the columns, the boundary triangles, and the nodes up to the last node of the outer
+/// boundary.
+/// \pre all cells of the mesh belong to columns: close_fans() and close_wakes() have not been called
 FillBoundary boundary_of(const HybridMesh& layers);
-/// Returns the outer boundary that was passed to assemble_layers(), up to the numbering of its vertices. \p n_wall_patches: number of patches with layers
+/// Returns the outer boundary that was passed to assemble_layers(), except that its vertices may have other numbers. \p n_wall_patches number of patches with
+/// layers
 ClosedOuter outer_of(const HybridMesh& layers, std::size_t n_wall_patches);
 
-/// Assembles the mesh without tetrahedra. Nodes: growth lines of the layer, outer boundary. Patches: those of the wall, then those of the outer boundary.
-/// Boundary triangles: wall, outer boundary, sides of cells beside a growth line that has ended; boundary quadrilaterals: sides of cells.
+/// Assembles the mesh without tetrahedra. Nodes: growth lines of the layer, then outer boundary. Patches: those of the wall, then those of the outer boundary.
+/// Boundary triangles: wall, outer boundary, and sides of cells beside a growth line that has ended. Boundary quadrilaterals: the other sides of cells.
 HybridMesh assemble_layers(const LayerBase& base, Extrusion extrusion, const ClosedOuter& outer, std::span<const LayerSide> sides);
 /// Adds the tetrahedra to the mesh.
-/// \pre mesh from assemble_layers(), `boundary` of the same mesh.
-/// \post Steiner points follow the mesh's nodes, new tetrahedra follow the existing ones (close_fans.h).
+/// \pre the mesh was made by assemble_layers(), and `boundary` belongs to this mesh
+/// \post Steiner points follow the nodes of the mesh, and new tetrahedra follow the existing ones (close_fans.h)
 void add_tetrahedra(const FillBoundary& boundary, const TetraResult& tets, HybridMesh& mesh, const RunContext& context);
 
 }  // namespace sterna::volmesh

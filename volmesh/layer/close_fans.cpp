@@ -1,4 +1,5 @@
-// Steps: number_nodes, move_lines (ends of ridges with a layer less), fill (columns that stay, explicit cells), reorder the boundary, prove the explicit cells.
+// Steps: number_nodes; move_lines (ends of ridges get one layer less); fill (columns that stay, and explicit cells); reorder the boundary; check the explicit
+// cells.
 #include "volmesh/layer/close_fans.h"
 
 #include <algorithm>
@@ -14,8 +15,8 @@
 namespace sterna::volmesh {
 namespace {
 
-/// Returns the same curve with one layer less: the height of the first cell is kept, the others grow slightly more. \p nodes: from the wall up; the last
-/// stays.
+/// Returns the same curve with one layer less. The height of the first cell is kept, and the others grow slightly more. \p nodes from the wall up; the last
+/// node stays
 std::vector<Point> with_layer_less(const std::vector<Point>& nodes) {
   std::vector<double> along = {0.0};
   for (std::size_t j = 1; j < nodes.size(); ++j) along.push_back(along.back() + distance(nodes[j - 1], nodes[j]));
@@ -61,7 +62,7 @@ class FanCloser {
   Line foot(Line line) const { return ridges_.foot[VertexId(line)].value(); }
   bool is_collapsed(Line line) const { return given_.is_collapsed[line] != 0; }
 
-  /// Returns node j of a growth line: growth lines with a common ridge base vertex meet in node 0, growth lines at ends of ridges start one layer later.
+  /// Returns node j of a growth line. Growth lines with a common ridge base vertex meet in node 0. Growth lines at ends of ridges start one layer later.
   NodeId node(Line line, int j) const {
     if (j == 0 || is_collapsed(line)) return NodeId(lines_.first(foot(line)));
     if (is_added(line)) return NodeId(lines_.first(line) + static_cast<std::uint32_t>(j) - 1);
@@ -186,7 +187,7 @@ class FanCloser {
     for (int j = 1; j < n_layers(t[0]); ++j) add_cell(t, j);
   }
 
-  /// Adds the cells over a virtual triangle of a corner: all three growth lines have a common ridge base vertex.
+  /// Adds the cells over a virtual triangle of a corner, whose three growth lines have a common ridge base vertex.
   void add_corner(const std::array<Line, 3>& t) {
     cells_.add_tet({node(t[0], 1), node(t[2], 1), node(t[1], 1), node(t[0], 0)}, t);
     for (int j = 1; j < n_layers(t[0]); ++j) add_cell(t, j);
@@ -197,7 +198,7 @@ class FanCloser {
     for (std::size_t t = ridges_.n_given_triangles; t < boundary_.triangles.size(); ++t) order_.push_back(static_cast<std::uint32_t>(t));
     lines_.reorder(boundary_, order_, node_of());
     for (std::size_t t = order_.size(); t-- > 0;)
-      if (order_[t] >= ridges_.n_given_triangles && order_[t] < given_.n_columns()) boundary_.layer_volumes[t] = 0.0;  // no prism is under this triangle
+      if (order_[t] >= ridges_.n_given_triangles && order_[t] < given_.n_columns()) boundary_.layer_volumes[t] = 0.0;  // there is no prism below this triangle
   }
 
   void prove() const {
@@ -211,8 +212,8 @@ class FanCloser {
   const OpenedRidges& ridges_;
   HybridMesh& mesh_;
   FillBoundary& boundary_;
-  const LayerBlock given_;  ///< on the opened wall
-  std::size_t n_lines_;     ///< growth lines of the given wall
+  const LayerBlock given_;  ///< layer on the opened wall
+  std::size_t n_lines_;     ///< number of growth lines of the given wall
   std::vector<std::uint8_t> is_end_;
   RenumberedLines lines_{given_};
   std::vector<std::uint32_t> order_, explicit_columns_;

@@ -1,4 +1,4 @@
-// Steps: number_nodes, keep_columns (and make the cells of all other columns), keep_faces, reorder_boundary of the tetrahedra, prove the explicit cells.
+// Steps: number_nodes; keep_columns (and make the cells of all other columns); keep_faces; reorder_boundary of the tetrahedra; check the explicit cells.
 #include "volmesh/layer/close_wakes.h"
 
 #include <algorithm>
@@ -99,8 +99,8 @@ class WakeCloser {
   const DoubledSheets& sheets_;
   HybridMesh& mesh_;
   FillBoundary& boundary_;
-  const LayerBlock given_;  ///< on the wall with sheets
-  std::vector<Line> foot_;  ///< per growth line: the growth line at whose first node it starts
+  const LayerBlock given_;  ///< layer on the wall with sheets
+  std::vector<Line> foot_;  ///< for each growth line the growth line at whose first node it starts
   RenumberedLines lines_{given_};
   std::vector<std::uint32_t> order_, explicit_columns_;
   ExplicitCells cells_;

@@ -8,7 +8,7 @@
 namespace sterna::volmesh {
 namespace {
 
-constexpr int k_sweeps = 3;  ///< sweeps of averaging; the min-filter is surrounded by as many rings of transition
+constexpr int k_sweeps = 3;  ///< number of averaging sweeps; the minimum filter is surrounded by as many rings of transition
 
 /// Returns `vertices` and all vertices within `rings` edges, ascending.
 std::vector<VertexId> dilated(const LayerBase& base, std::vector<VertexId> vertices, int rings) {

@@ -1,4 +1,4 @@
-// Cells of a layer that do not belong to columns: around opened ridges and on wake sheets.
+// Cells of a layer that do not belong to columns. They lie around opened ridges and on wake sheets.
 #pragma once
 
 #include <array>
@@ -37,12 +37,12 @@ class ExplicitCells {
     mesh_.hexahedra.push_back(nodes);
     hex_lines_.push_back(lines_of(lines));
   }
-  /// Adds the cell of a triangle of growth lines in one layer: a prism, or the degenerate cell that remains where growth lines have the same node below and
+  /// Adds the cell of a triangle of growth lines in one layer. It is a prism, or the degenerate cell that remains if growth lines have the same node below and
   /// above (LayerBlock::cell).
   void add_cell(const std::array<NodeId, 3>& low, const std::array<NodeId, 3>& high, const std::array<Line, 3>& lines);
 
-  /// Calls on_invalid(line) for every growth line of each cell that is not valid by the exact test of its kind, or has a dual sub-volume that is not
-  /// positive. Returns the locations of these cells. \pre all cells of the mesh outside its columns were added here
+  /// Finds cells that are not valid by the exact test of their kind, or have a dual sub-volume that is not positive. Calls on_invalid(line) for every growth
+  /// line of each such cell. Returns the locations of these cells. \pre all cells of the mesh outside its columns were added here
   ErrorInfo find_invalid(const std::function<void(Line)>& on_invalid) const;
 
  private:

@@ -1,5 +1,5 @@
-// Steps of Extruder::extrude: place_stale_lines, limit_growth, limit_warp, invalid_among. While any column is invalid: reduce_curving, lower_heights if that
-// is not sufficient, and both again for everything that changed. Curving and heights only fall, so the rounds end.
+// Steps of Extruder::extrude: place_stale_lines, limit_growth, limit_warp, invalid_among. While a column is invalid: reduce_curving; if that is not sufficient,
+// lower_heights; and both steps again for all columns that changed. Curving and heights only fall, so the rounds end.
 #include "volmesh/layer/extrude.h"
 
 #include <algorithm>
@@ -19,24 +19,24 @@ namespace sterna::volmesh {
 namespace {
 
 constexpr int k_max_repair_rounds = 200;
-constexpr int k_curving_rounds = 8;         ///< rounds that reduce c_t by bisection; later rounds straighten growth lines and lower heights at once
-constexpr int k_warp_rounds = 3;            ///< less curving at one column changes the adjacent columns
-constexpr int k_bisections = 6;             ///< c_t to 1/64 of its previous value
-constexpr double k_equalise_factor = 1.05;  ///< corners of an invalid cell keep heights within this ratio of the lowest
-constexpr double k_shrink_factor = 0.7;     ///< factor on the heights of a cell that stays invalid with equal heights and straight growth lines
-/// Largest ratio of consecutive node distances of a curved growth line, relative to the ratio of its heights; at most k_max_growth (of 1.5 allowed by gate
-/// G8).
+constexpr int k_curving_rounds = 8;  ///< number of rounds that reduce c_t by bisection; later rounds straighten growth lines and lower heights immediately
+constexpr int k_warp_rounds = 3;     ///< number of rounds, because less curving at one column changes the adjacent columns
+constexpr int k_bisections = 6;      ///< number of bisections; the result is within 1/64 of the previous c_t
+constexpr double k_equalise_factor = 1.05;  ///< corners of an invalid cell get heights within this ratio of the lowest corner
+constexpr double k_shrink_factor = 0.7;     ///< factor on the heights of a cell that is invalid even with equal heights and straight growth lines
+/// Largest ratio of consecutive node distances of a curved growth line, relative to the ratio of its heights; the ratio itself is at most k_max_growth (gate G8
+/// allows 1.5).
 constexpr double k_growth_reserve = 1.15, k_max_growth = 1.45;
-/// Reserve of a growth line whose heights already grow by nearly k_max_growth.
+/// The same factor for a growth line whose heights already grow by nearly k_max_growth.
 constexpr double k_least_reserve = 1.02;
-/// Cosine of 65 degrees between a face normal and the direction through the face (OpenFOAM's non-orthogonality); and the least improvement of straight growth
-/// lines over curved ones.
+/// Smallest cosine between a face normal and the direction through the face (65 degrees, OpenFOAM's non-orthogonality), and the smallest improvement of
+/// straight growth lines over curved ones that counts.
 constexpr double k_least_top_cosine = 0.42, k_tilt_room = 0.02;
-constexpr double k_hopeless = -1.0;  ///< invalid with straight growth lines
+constexpr double k_hopeless = -1.0;  ///< fraction for a column that is invalid even with straight growth lines
 constexpr std::size_t k_line_chunk = 512;
 constexpr std::size_t k_column_chunk = 256;
 
-/// Returns the largest share of c_t, to 1/64, for which `is_good(share)` holds, assuming that it holds for 0 and fails for 1.
+/// Returns the largest fraction of c_t, to 1/64, for which `is_good(share)` holds. It must hold for 0 and fail for 1.
 template <class IsGood>
 double largest_share(const IsGood& is_good) {
   double low = 0.0, high = 1.0;
@@ -47,8 +47,8 @@ double largest_share(const IsGood& is_good) {
   return low;
 }
 
-/// Returns true if all cells of a column are valid. On a virtual triangle the first cell does not exist, and the others are mostly parts of hexahedra:
-/// close_fans.h proves the actual cells, and no height is given up for this column.
+/// Returns true if all cells of a column are valid. On a virtual triangle the first cell does not exist, and most other cells are parts of hexahedra.
+/// close_fans.h checks the actual cells, so no height is reduced for such a column.
 bool is_certain(const LayerBase& base, std::size_t column, const ColumnLines& lines) {
   if (!base.is_virtual(TriangleId(column)) || lines.n_prisms() != lines.n_cells()) return is_column_certain(lines);
   const auto& [a, b, c] = lines.nodes;
@@ -89,7 +89,7 @@ Extruder::Extruder(const LayerBase& base, const EnvelopeOptions& envelope_option
   points_.resize(n_nodes);
 }
 
-/// Places the growth lines whose height, direction or curving has changed since they were placed; returns them, ascending.
+/// Places the growth lines whose height, direction or curving has changed since they were placed. Returns these growth lines, ascending.
 std::vector<VertexId> Extruder::place_stale_lines(const Envelope& envelope) {
   return parallel_collect<VertexId>(
       context_, base_.wall.n_vertices(),
@@ -116,7 +116,7 @@ Extruder::Columns Extruder::columns_at(const std::vector<VertexId>& lines) const
   return columns;
 }
 
-/// Returns the invalid columns among some columns, or among all.
+/// Returns the invalid columns among some columns, or among all columns.
 Extruder::Columns Extruder::invalid_among(const Columns* some) const {
   return parallel_collect<std::size_t>(
       context_, some ? some->size() : layers_.n_columns(),
@@ -143,7 +143,7 @@ double worst_ratio(std::span<const Point> nodes) {
 
 }  // namespace
 
-/// Limits c_t of growth lines whose cells would grow by more than their heights. Returns true if there are any.
+/// Limits c_t of growth lines whose cells would grow by more than their heights. Returns true if there are such growth lines.
 bool Extruder::limit_growth(const Envelope& envelope, const std::vector<VertexId>& lines) {
   std::vector<double> share(lines.size(), 1.0);
   parallel_chunks(context_, lines.size(), k_line_chunk, [&](std::size_t begin, std::size_t end) {
@@ -173,8 +173,8 @@ bool Extruder::limit_growth(const Envelope& envelope, const std::vector<VertexId
   return has_any;
 }
 
-/// Returns the largest common share of the present c_t of its growth lines with which a column is valid, to 1/64; k_hopeless if the column is invalid with
-/// straight growth lines too.
+/// Returns the largest common fraction of the present c_t of its growth lines with which a column is valid, to 1/64. Returns k_hopeless if the column is also
+/// invalid with straight growth lines.
 double Extruder::valid_share(const Envelope& envelope, std::size_t column) const {
   const std::size_t per_line = static_cast<std::size_t>(scale_.most_layers()) + 1;
   std::vector<Point> nodes(3 * per_line);
@@ -192,14 +192,14 @@ double Extruder::valid_share(const Envelope& envelope, std::size_t column) const
   return is_valid(0.0) ? largest_share(is_valid) : k_hopeless;
 }
 
-/// Returns the ends of a wall edge, the third corner of its triangle and that of the triangle beyond (invalid at the wall's boundary).
+/// Returns the ends of a wall edge, the third corner of its triangle and the third corner of the triangle beyond (invalid at the wall's boundary).
 std::array<VertexId, 4> Extruder::vertices_at(HalfedgeId side) const {
   const HalfedgeId twin = base_.topology.twin(side);
   return {base_.topology.from(side), base_.topology.to(side), base_.topology.from(previous(side)),
           twin.is_valid() ? base_.topology.from(previous(twin)) : VertexId()};
 }
 
-/// Returns the number of layers with prisms on both sides of a side.
+/// Returns the number of layers that have prisms on both sides of a side.
 int Extruder::prisms_beside(const std::array<VertexId, 4>& around) const {
   int n = scale_.most_layers();
   for (const VertexId v : around)
@@ -207,7 +207,7 @@ int Extruder::prisms_beside(const std::array<VertexId, 4>& around) const {
   return n;
 }
 
-/// Returns the first layer to be evaluated on the side over an edge, from both columns.
+/// Returns the first layer that has to be evaluated on the side over an edge, for both columns.
 int Extruder::first_layer_at(HalfedgeId side) const {
   const auto first = [&](std::size_t column) { return first_layer_to_look_at(column_lines(layers_, points_, column)); };
   const HalfedgeId twin = base_.topology.twin(side);
@@ -215,7 +215,7 @@ int Extruder::first_layer_at(HalfedgeId side) const {
   return twin.is_valid() ? std::min(own, first(triangle_of(twin).index())) : own;
 }
 
-/// Returns the edges of some triangles, or of all, over which the sides of prisms are not good; each by its lower half-edge.
+/// Returns the edges of some triangles, or of all, over which the sides of prisms are not good. Each edge is given by its lower half-edge.
 std::vector<HalfedgeId> Extruder::warped_sides(const Envelope& envelope, const Columns* some) const {
   return parallel_collect<HalfedgeId>(
       context_, some ? some->size() : layers_.n_columns(),
@@ -235,8 +235,8 @@ std::vector<HalfedgeId> Extruder::warped_sides(const Envelope& envelope, const C
       k_column_chunk);
 }
 
-/// Returns the largest common share of the present c_t of the growth lines around a side with which the side can be cut; k_hopeless if straight growth lines
-/// are not sufficient.
+/// Returns the largest common fraction of the present c_t of the growth lines around a side with which the side can be cut. Returns k_hopeless if straight
+/// growth lines are not sufficient.
 double Extruder::unwarped_share(const Envelope& envelope, HalfedgeId side) const {
   const std::size_t per_line = static_cast<std::size_t>(scale_.most_layers()) + 1;
   const std::array<VertexId, 4> v = vertices_at(side);
@@ -274,7 +274,7 @@ bool Extruder::limit_warp(const Envelope& envelope, const Columns* some) {
 
 namespace {
 
-/// Returns the smallest cosine between the normal of a face between two cells of a column and the line connecting the centres of these cells.
+/// Returns the smallest cosine between the normal of a face between two cells of a column and the line that connects the centres of these cells.
 double worst_top_cosine(const ColumnLines& lines) {
   const auto& [a, b, c] = lines.nodes;
   double worst = 1.0;
@@ -287,7 +287,8 @@ double worst_top_cosine(const ColumnLines& lines) {
 
 }  // namespace
 
-/// Limits c_t where the faces between the cells of a column are tilted against it and less curving improves them. Returns true if there is such a location.
+/// Limits c_t where the faces between the cells of a column are tilted against the column and less curving improves them. Returns true if there is such a
+/// location.
 bool Extruder::limit_tilt(const Envelope& envelope, const Columns* some) {
   const auto has_lines = [&](std::size_t column) { return layers_.n_collapsed(column) == 0; };
   const Columns tilted = parallel_collect<std::size_t>(
@@ -311,8 +312,8 @@ bool Extruder::limit_tilt(const Envelope& envelope, const Columns* some) {
   return has_any;
 }
 
-/// Returns the largest common share of the present c_t of its growth lines with which the faces between a column's cells are within the limit, or as upright
-/// as with straight growth lines; 1 if straight growth lines are no better.
+/// Returns the largest common fraction of the present c_t of its growth lines with which the faces between a column's cells are within the limit, or as upright
+/// as with straight growth lines. Returns 1 if straight growth lines are no better.
 double Extruder::upright_share(const Envelope& envelope, std::size_t column) const {
   const std::size_t per_line = static_cast<std::size_t>(scale_.most_layers()) + 1;
   std::vector<Point> nodes(3 * per_line);
@@ -332,7 +333,7 @@ double Extruder::upright_share(const Envelope& envelope, std::size_t column) con
   return largest_share([&](double share) { return cosine(share) >= wanted; });
 }
 
-/// Limits c_t at the growth lines of invalid columns to the result of bisection; returns the columns that no c_t makes valid.
+/// Limits c_t at the growth lines of invalid columns to the result of bisection. Returns the columns that no c_t makes valid.
 Extruder::Columns Extruder::reduce_curving(const Envelope& envelope, const Columns& bad) {
   std::vector<double> share(bad.size());
   parallel_for(
@@ -348,7 +349,7 @@ Extruder::Columns Extruder::reduce_curving(const Envelope& envelope, const Colum
   return hopeless;
 }
 
-/// Makes heights equal over the corners of invalid columns; lowers them where they were equal already.
+/// Makes heights equal over the corners of invalid columns. Lowers them if they were already equal.
 void Extruder::lower_heights(const Columns& columns, Envelope& envelope) const {
   std::vector<VertexId> touched;
   for (const std::size_t c : columns) {
@@ -378,7 +379,7 @@ void Extruder::choose_layers(const Envelope& envelope) {
   layers_.line_layers = numbers_->layers();
 }
 
-/// Gives truncated growth lines of invalid columns one layer more than the longest growth line of the column, up to the requested number; returns all other
+/// Gives truncated growth lines of invalid columns one layer more than the longest growth line of the column has, up to the requested number. Returns all other
 /// columns.
 Extruder::Columns Extruder::with_more_layers(const Columns& hopeless) {
   Columns others;
@@ -414,7 +415,7 @@ void Extruder::extrude(Envelope& envelope) {
   for (int round = 0; round < k_warp_rounds; ++round) {
     const bool is_tilted = limit_tilt(envelope, is_first_ ? nullptr : &some), is_warped = limit_warp(envelope, is_first_ ? nullptr : &some);
     if (!is_tilted && !is_warped) break;
-    if (limit_growth(envelope, place_again())) place_again();  // a growth line that bends earlier grows more, unless it is straight
+    if (limit_growth(envelope, place_again())) place_again();  // a growth line that bends in lower layers grows more, unless it is straight
     if (!is_first_) some = columns_at(placed);
   }
   Columns bad = invalid_among(is_first_ ? nullptr : &some);
@@ -443,7 +444,7 @@ void Extruder::extrude(Envelope& envelope) {
     if (!hopeless.empty()) lower_heights(hopeless, envelope);
     curving_.smooth(context_);
     some = columns_at(place_stale_lines(envelope));
-    some.insert(some.end(), bad.begin(), bad.end());  // also columns that could not be changed in this round
+    some.insert(some.end(), bad.begin(), bad.end());  // this includes columns that could not be changed in this round
     sort_unique(some);
     bad = invalid_among(&some);
   }

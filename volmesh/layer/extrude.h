@@ -16,31 +16,32 @@
 namespace sterna::volmesh {
 
 struct Extrusion {
-  LayerBlock layers;                             ///< growth line k stands on wall vertex k; base triangle = wall triangle
-  std::vector<Point> points;                     ///< nodes of all growth lines, line by line from the wall up
-  std::int64_t n_straightened = 0;               ///< growth lines whose c_t was reduced
-  std::array<std::int64_t, 5> curving_shares{};  ///< growth lines whose c_t was reduced, by share of the target c_t: 0, up to 1/4, 1/2, 3/4, below 1
+  LayerBlock layers;                ///< growth line k stands on wall vertex k; base triangles are the wall triangles
+  std::vector<Point> points;        ///< nodes of all growth lines, one line after the other, each from the wall up
+  std::int64_t n_straightened = 0;  ///< number of growth lines whose c_t was reduced
+  /// Numbers of growth lines whose c_t was reduced, by the fraction of the target c_t: 0, up to 1/4, 1/2, 3/4, below 1.
+  std::array<std::int64_t, 5> curving_shares{};
 };
 
-/// Creates and updates the layer of one wall. Nodes and curving are kept between calls: later calls update only the growth lines whose envelope has changed,
-/// and the adjacent columns.
+/// Creates and updates the layer of one wall. Nodes and curving are kept between calls. Later calls update only the growth lines whose envelope has changed,
+/// and the columns beside them.
 class Extruder {
  public:
   Extruder(const LayerBase& base, const EnvelopeOptions& envelope_options, const PrismOptions& options, const RunContext& context);
 
-  /// Extrudes the layer. Numbers of layers by LayerNumbers where truncation is requested. Nodes by LinePlacer, with c_t as large as the growth along the
-  /// growth line (G8), and sides that can be cut and faces that are not tilted (OpenFOAM) allow. Columns with an invalid cell (exact tests of cell and dual
-  /// sub-volumes) are repaired in this order: c_t of their growth lines is reduced to the largest value, found by bisection, for which the column is valid,
-  /// smoothed over the surface (Curving); if straight lines are not sufficient, truncated lines get more layers; then heights are made equal over the
-  /// column's corners and lowered (through `unwarp`), down to collapse. Changes `envelope` accordingly.
-  /// \post every cell is valid with positive dual sub-volumes; top nodes are envelope.point() to the bit.
-  /// \throws Error(envelope_failed) if columns stay invalid after 200 rounds.
+  /// Extrudes the layer. If truncation is requested, LayerNumbers determines the numbers of layers. LinePlacer places the nodes, with the largest c_t for which
+  /// the growth along the growth line is allowed (G8), sides can be cut, and faces are not tilted (OpenFOAM). Columns with an invalid cell (exact tests of cell
+  /// and dual sub-volumes) are repaired in this order. First, c_t of their growth lines is reduced to the largest value for which the column is valid, found by
+  /// bisection, and smoothed over the surface (Curving). If straight growth lines are not sufficient, truncated growth lines get more layers. Then heights are
+  /// made equal over the column's corners and lowered (through `unwarp`), until the corners collapse if necessary. Changes `envelope` accordingly.
+  /// \post every cell is valid with positive dual sub-volumes; top nodes equal envelope.point() bit-exactly
+  /// \throws Error(envelope_failed) if columns are still invalid after 200 rounds
   void extrude(Envelope& envelope);
-  /// Returns the layer of the last extrude(); the object must not be used afterwards.
+  /// Returns the layer of the last extrude(). The object must not be used afterwards.
   Extrusion take();
 
  private:
-  using Columns = std::vector<std::size_t>;  ///< column indices of the layer (= wall triangles), ascending
+  using Columns = std::vector<std::size_t>;  ///< numbers of columns (= wall triangles), ascending
 
   std::vector<VertexId> place_stale_lines(const Envelope& envelope);
   bool limit_growth(const Envelope& envelope, const std::vector<VertexId>& lines);
@@ -67,10 +68,10 @@ class Extruder {
   EnvelopeScale scale_;
   RunContext context_;
   Curving curving_;
-  Truncation truncation_;                    ///< for walls without their own setting
+  Truncation truncation_;                    ///< setting for walls without their own setting
   std::optional<LayerNumbers> numbers_;      ///< result of the last choose_layers()
-  std::vector<std::uint16_t> least_layers_;  ///< per growth line, where truncation made a column invalid
-  LayerBlock layers_;                        ///< all growth lines, also collapsed ones, have room for the nodes of all layers requested there
+  std::vector<std::uint16_t> least_layers_;  ///< smallest number of layers of each growth line, where truncation made a column invalid
+  LayerBlock layers_;                        ///< all growth lines, including collapsed ones, have room for the nodes of all layers requested there
   std::vector<Point> points_;
   /// Parameters with which a growth line was placed.
   struct Placed {

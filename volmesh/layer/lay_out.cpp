@@ -19,8 +19,8 @@ namespace {
 
 constexpr int k_max_clear_rounds = 10;
 
-/// Extrusion may lower heights, and lowering may bring surfaces together that were clear before: both steps alternate until neither changes anything.
-/// Vertices that still change after some rounds collapse, so the loop terminates. \pre, \post envelope valid and clear.
+/// Extrusion may lower heights, and lower heights may bring surfaces together that were clear before. Both steps alternate until neither changes anything.
+/// Vertices that still change after some rounds collapse, so the loop terminates. \pre, \post the envelope is valid and clear
 Extrusion extrude_clear_of_collisions(const LayerBase& base, const MeshCase& options, Collider& collider, Envelope& envelope, const RunContext& context) {
   const EnvelopeScale scale = scale_of(base, options.envelope);
   Extruder extruder(base, options.envelope, options.prisms, context);

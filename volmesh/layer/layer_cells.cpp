@@ -10,18 +10,19 @@
 namespace sterna::volmesh {
 namespace {
 
-constexpr int k_top_layers = 4;             ///< below these, growth lines are nearly normal and cells flat
-constexpr double k_narrow_share = 0.3;      ///< share of the wall triangle's area: sides are evaluated where the column's cross section is smaller
-constexpr std::size_t k_proof_chunk = 256;  ///< columns, some 10^4 cells
+constexpr int k_top_layers = 4;             ///< number of top layers that are evaluated; below these, growth lines are nearly normal and cells are flat
+constexpr double k_narrow_share = 0.3;      ///< fraction of the wall triangle's area: sides are evaluated where the cross section of the column is smaller
+constexpr std::size_t k_proof_chunk = 256;  ///< columns per task, which are some 10^4 cells
 
 WedgePoints wedge_of(const ColumnLines& lines, int layer) {
   const auto& [a, b, c] = lines.nodes;
   return {a[layer], b[layer], c[layer], a[layer + 1], b[layer + 1], c[layer + 1]};
 }
 
-/// A cell of a column beside a growth line that has ended, rotated so that the odd growth line comes first; the cyclic sense is kept (LayerBlock::cell).
+/// A cell of a column beside a growth line that has ended. It is rotated so that the growth line that differs from the other two comes first; the cyclic order
+/// is kept (LayerBlock::cell).
 struct PartialCell {
-  std::array<const Point*, 3> nodes;  ///< in this layer; the last nodes of growth lines that have ended
+  std::array<const Point*, 3> nodes;  ///< nodes in this layer; for growth lines that have ended, their last nodes
   bool is_pyramid;
 };
 PartialCell partial_cell(const ColumnLines& lines, int layer) {
@@ -41,13 +42,15 @@ std::array<Vec3, 4> tet_of(const PartialCell& cell) {
   return {a[0], b[0], c[0], a[1]};
 }
 
-/// Returns six times the volume of a triangle's tetrahedron with the cell's centre; positive if the triangle's normal points away from the centre.
+/// Returns six times the volume of the tetrahedron between a triangle and the cell's centre. It is positive if the triangle's normal points away from the
+/// centre.
 double outward_volume(const Point& a, const Point& b, const Point& c, const Point& centre) { return dot(cross(b - a, c - a), a - centre); }
 
 using Quad = std::array<Point, 4>;
 
-/// Returns, for each diagonal, the smallest volume of the tetrahedra into which a quadrilateral is cut with a cell's centre, around its middle and along the
-/// diagonal, over the mean of the tetrahedra around its middle; negative if a tetrahedron is inverted.
+/// Returns a quality for each diagonal of a quadrilateral. The quadrilateral is cut into tetrahedra with a cell's centre, around its middle and along the
+/// diagonal. The quality is the smallest of their volumes divided by the mean volume of the tetrahedra around its middle. It is negative if a tetrahedron is
+/// inverted.
 std::array<double, 2> cut_shares(const Quad& q, const Point& centre) {
   const Point middle = 0.25 * (q[0] + q[1] + q[2] + q[3]);
   std::array<double, 4> around{};
@@ -103,7 +106,7 @@ bool is_column_certain(const ColumnLines& lines) {
   for (int j = lines.n_prisms(), n = lines.n_cells(); j < n; ++j) {
     const PartialCell partial = partial_cell(lines, j);
     if (!partial.is_pyramid) {
-      if (!is_tet_valid(tet_of(partial))) return false;  // then its dual is positive, too
+      if (!is_tet_valid(tet_of(partial))) return false;  // if the tetrahedron is valid, its dual is positive, too
       continue;
     }
     const std::array<Vec3, 5> p = pyramid_of(partial);
@@ -114,7 +117,7 @@ bool is_column_certain(const ColumnLines& lines) {
 
 namespace {
 
-/// Returns the share of a side in one layer for the better diagonal, by the worse of both cells.
+/// Returns the cut quality of a side in one layer for the better diagonal. The worse of both cells determines it.
 double cut_share(const Quad& side, const Point& own_centre, const Point* centre_beyond) {
   const std::array<double, 2> own = cut_shares(side, own_centre);
   const std::array<double, 2> beyond = centre_beyond ? cut_shares(side, *centre_beyond) : own;

@@ -8,19 +8,19 @@
 namespace sterna::volmesh {
 namespace {
 
-/// Below this c_t the curve is straight after less than a thousandth of the height.
+/// With a smaller c_t the curve is straight after less than a thousandth of the height.
 constexpr double k_straight = 1e-3;
-/// A growth line that bends within its flat cells changes their proportions above facets that are inclined to the vertex's normal. Steps along such a facet
-/// change by 0.5 t / c_t from cell to cell; the limit is 11 h / e (growth_law.h). A cell of height h at t has h = 0.2 t H if cells grow by 1.25. Therefore
-/// c_t is at least this constant times e / H, times the tangent of the growth line's inclination and the sine of the facet's.
+/// A growth line that bends within its flat cells changes the proportions of these cells above facets that are inclined to the vertex's normal. Steps along
+/// such a facet change by 0.5 t / c_t from cell to cell, and the limit is 11 h / e (growth_law.h). A cell of height h at t has h = 0.2 t H if cells grow by
+/// 1.25. Therefore c_t must be at least this constant times e / H, times the tangent of the growth line's inclination and the sine of the facet's inclination.
 constexpr double k_flat_curving = 0.23;
-/// Tangent of the inclination beyond which a straight growth line cannot meet its first height, because of the lower limit of normal_height().
+/// Tangent of an inclination. A straight growth line with a larger inclination cannot have its first height, because of the lower limit of normal_height().
 constexpr double k_steepest = 9.9;
 }  // namespace
 
 LinePlacer::LinePlacer(const LayerBase& base, const EnvelopeScale& scale) : base_(base), scale_(scale), t_(static_cast<std::size_t>(scale.most_layers()) + 1) {}
 
-/// Returns the least c_t of a growth line that is not straight. Local growth changes proportions in any case.
+/// Returns the smallest c_t of a growth line that is not straight. With local growth the proportions change in any case.
 double LinePlacer::least_curving(VertexId v, double aside, double height) const {
   if (!scale_.has_common_growth() || aside > k_steepest * height) return 0.0;
   const double cosine = base_.worst_cosine(v, base_.vertex_normal[v]);
@@ -45,7 +45,7 @@ void LinePlacer::place(const Envelope& envelope, VertexId v, int n, double c_t, 
   }
   nodes[n] = envelope.point(base_.wall, v);
   const VertexConstraint& constraint = base_.constraint[v];
-  if (constraint.freedom != Freedom::surface) return;  // planes and lines are satisfied exactly by the directions
+  if (constraint.freedom != Freedom::surface) return;  // directions already satisfy constraints to planes and lines exactly
   const ConstraintSurface& surface = *base_.surfaces[static_cast<std::size_t>(constraint.on[0])];
   for (int j = 1; j < n; ++j) nodes[j] = surface.closest(nodes[j]);
 }

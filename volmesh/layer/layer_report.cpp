@@ -15,10 +15,11 @@
 namespace sterna::volmesh {
 namespace {
 
-constexpr int k_report_digits = 4;          ///< digits of lengths in texts
-constexpr double k_suspicious_share = 0.5;  ///< share of compressed area above which a mistake in the settings is more probable than a difficult shape
+constexpr int k_report_digits = 4;  ///< number of digits of lengths in texts
+/// Fraction of the area; if a larger fraction is compressed, a mistake in the settings is more probable than a difficult shape.
+constexpr double k_suspicious_share = 0.5;
 
-/// Reasons for less than the full height: those of HeightLimit, then growth lines that are long enough but inclined.
+/// Reasons for less than the full height: those of HeightLimit, and as the last one growth lines that are long enough but inclined.
 constexpr std::size_t k_lean = k_height_limits;
 using LostArea = std::array<double, k_height_limits + 1>;
 
@@ -26,14 +27,14 @@ std::string_view reason_text(std::size_t reason) {
   return reason == k_lean ? "growth lines lean away from the wall normal" : to_string(static_cast<HeightLimit>(reason));
 }
 
-/// Areas by state, m^2.
+/// Areas by state of the layer, m^2.
 struct Areas {
   double all = 0.0, full = 0.0, compressed = 0.0, thin = 0.0, collapsed = 0.0, attainable = 0.0, attained = 0.0, truncated = 0.0;
-  int least_layers = std::numeric_limits<int>::max();  ///< least number on growth lines that are not collapsed
+  int least_layers = std::numeric_limits<int>::max();  ///< smallest number of layers on growth lines that are not collapsed
   LostArea lost{};
 };
 
-/// Returns the height of the layer along the wall's normal, m. Unlike normal_height() without a lower limit.
+/// Returns the height of the layer along the wall's normal in metres. Unlike normal_height() it has no lower limit.
 double height_along_normal(const LayerBase& base, const Envelope& envelope, VertexId v) {
   return envelope.height[v] * dot(envelope.direction[v], base.vertex_normal[v]);
 }
@@ -53,7 +54,7 @@ double mean_top_edge(const LayerBase& base, const Envelope& envelope, TriangleId
   return (distance(top(0), top(1)) + distance(top(1), top(2)) + distance(top(2), top(0))) / 3.0;
 }
 
-/// Returns the room around the wall with its layer targets, and the outer boundary.
+/// Returns the room around the wall with its layer targets and the outer boundary.
 LayerRoom room_around(const LayerBase& base, const Envelope& envelope, const TriMesh* outer, const RunContext& context) {
   std::vector<FacingTriangle> facing(base.wall.n_triangles());
   parallel_for(context, facing.size(), [&](std::size_t i) {
@@ -70,7 +71,7 @@ LayerRoom room_around(const LayerBase& base, const Envelope& envelope, const Tri
   return LayerRoom(std::move(facing), context);
 }
 
-/// Returns the height along the normal that the geometry permits at each vertex, m; the target where the vertex has its full height.
+/// Returns the height along the normal in metres that the geometry permits at each vertex. Where the vertex has its full height, it is the target.
 Column<VertexId, double> permitted_heights(const LayerBase& base, const Envelope& envelope, const TriMesh* outer, const RunContext& context) {
   Column<VertexId, double> permitted = envelope.target;
   const auto is_full = [&](VertexId v) { return has_full_height(base, envelope, v) || base.topology.outgoing(v).empty(); };
@@ -97,7 +98,7 @@ class Classifier {
   bool is_full(VertexId v) const { return has_full_height(base_, envelope_, v); }
   int layers(VertexId v) const { return layers_.layers_of_line(v.value()); }
   bool is_compressed(VertexId v) const { return !envelope_.is_collapsed(v) && normal_height(base_, envelope_, v) < scale_.room_for_first_cell(v, layers(v)); }
-  /// Returns true if the layer is lower than the sum of first heights of its layers.
+  /// Returns true if the layer is lower than the sum of the first heights of its layers.
   bool is_thin(VertexId v) const { return is_compressed(v) && normal_height(base_, envelope_, v) < layers(v) * scale_.h0(v); }
   bool is_truncated(VertexId v) const { return !envelope_.is_collapsed(v) && layers(v) < scale_.n(v); }
   void add(VertexId v, double area, Areas& areas) const {
@@ -152,7 +153,7 @@ std::string vertex_text(const LayerBase& base, const Envelope& envelope, VertexI
 void list_places(const LayerBase& base, const Envelope& envelope, const Classifier& classifier, LayerReport& report) {
   std::vector<VertexId> compressed;
   for (const VertexId v : envelope.height.ids()) {
-    if (base.topology.outgoing(v).empty()) continue;  // belongs to no triangle
+    if (base.topology.outgoing(v).empty()) continue;  // the vertex belongs to no triangle
     if (classifier.is_compressed(v)) compressed.push_back(v);
     if (envelope.is_collapsed(v)) report.collapsed.push_back({base.wall.points[v], vertex_text(base, envelope, v)});
   }
@@ -163,10 +164,10 @@ void list_places(const LayerBase& base, const Envelope& envelope, const Classifi
     report.compressed.push_back({base.wall.points[v], in_metres(envelope.height[v], k_report_digits) + ", " + vertex_text(base, envelope, v)});
 }
 
-/// Warns of layers that are thinner than their own first cells: a wrong unit is a more frequent cause than a difficult shape.
-/// \param thin_area share of the wall area with such layers
+/// Warns of layers that are thinner than the sum of their first heights. A wrong unit is a more frequent cause than a difficult shape.
+/// \param thin_area fraction of the wall area with such layers
 void warn(const Envelope& envelope, const Classifier& classifier, double thin_area, LayerReport& report) {
-  // The vertex with the largest ratio of the target to the total of the first heights.
+  // Finds the vertex with the largest ratio of the target to the sum of the first heights.
   const EnvelopeScale& scale = classifier.scale();
   VertexId v(0);
   for (const VertexId other : envelope.target.ids())

@@ -1,5 +1,5 @@
-// Renumbering of a layer whose growth lines get other nodes, because some of them start at a node of another growth line or have their own cells: shared by
-// close_fans and close_wakes.
+// Renumbers a layer whose growth lines get other nodes, because some of them start at a node of another growth line or have their own cells. Used by close_fans
+// and close_wakes.
 #pragma once
 
 #include <algorithm>
@@ -14,18 +14,18 @@
 
 namespace sterna::volmesh {
 
-/// Node numbers after growth lines got other nodes. Argument \p node of the functions: node(line, j) -> NodeId, the present location of node j of a growth
-/// line of the given block.
+/// Node numbers after growth lines got other nodes. The functions have an argument \p node: node(line, j) -> NodeId returns the present location of node j of a
+/// growth line of the given block.
 class RenumberedLines {
  public:
   using Line = std::uint32_t;
-  /// \p given: must outlive this; nodes of its growth lines are the first of the mesh
+  /// \p given must outlive this object; the nodes of its growth lines are the first nodes of the mesh
   explicit RenumberedLines(const LayerBlock& given) : given_(given) {
     for (Line line = 0; line < given.n_lines(); ++line) n_before_ = std::max(n_before_, given.top(line).index() + 1);
   }
 
-  /// Renumbers the nodes of a mesh: append(line, begin, points) adds the nodes of a growth line; begin is the position of its given nodes. Points after the
-  /// growth lines follow the new ones.
+  /// Renumbers the nodes of a mesh. append(line, begin, points) adds the nodes of a growth line; begin is the position of its given nodes. Points after the
+  /// growth lines follow the new nodes.
   template <class Append>
   void renumber(HybridMesh& mesh, const Append& append) {
     const std::vector<Point>& old = mesh.points.raw();
@@ -41,11 +41,11 @@ class RenumberedLines {
     mesh.points = Column<NodeId, Point>(std::move(points));
   }
 
-  /// Returns the first node of a growth line, and the first nodes of all.
+  /// Returns the first node of a growth line; the overload without argument returns the first nodes of all growth lines.
   std::uint32_t first(Line line) const { return first_[line]; }
   std::span<const std::uint32_t> first() const { return first_; }
 
-  /// Returns the new number of a node of the given mesh. \pre for nodes of growth lines: an end of the growth line, or on the wall
+  /// Returns the new number of a node of the given mesh. \pre a node of a growth line is an end of the growth line, or is on the wall
   template <class NodeOf>
   NodeId moved(NodeId before, const NodeOf& node) const {
     if (before.index() >= n_before_) return NodeId(static_cast<std::uint64_t>(static_cast<std::int64_t>(before.index()) + outer_shift_));
@@ -54,7 +54,7 @@ class RenumberedLines {
     return node(line, static_cast<int>(before.value() - given_.first_node[line]));
   }
 
-  /// Renumbers the boundary faces and removes those under columns from `n_columns` on, which stand on no wall.
+  /// Renumbers the boundary faces. Removes faces of columns from `n_columns` on, because these columns stand on no wall.
   template <class NodeOf>
   void move_faces(HybridMesh& mesh, std::size_t n_columns, const NodeOf& node) const {
     std::vector<sterna::BoundaryTriangle> faces;
@@ -67,14 +67,15 @@ class RenumberedLines {
     std::vector<BoundaryQuad> quads;
     for (BoundaryQuad quad : mesh.boundary_quads) {
       for (NodeId& n : quad.nodes) n = moved(n, node);
-      if (quad.nodes[0] == quad.nodes[1]) faces.push_back({{quad.nodes[0], quad.nodes[2], quad.nodes[3]}, quad.patch});  // lines with one base vertex
+      // The two growth lines have the same base vertex.
+      if (quad.nodes[0] == quad.nodes[1]) faces.push_back({{quad.nodes[0], quad.nodes[2], quad.nodes[3]}, quad.patch});
       else quads.push_back(quad);
     }
     mesh.boundary_triangles = std::move(faces);
     mesh.boundary_quads = std::move(quads);
   }
 
-  /// Sorts the triangles of the tetrahedra's boundary in the given order of the old ones, and updates the nodes of its points.
+  /// Sorts the triangles on the boundary of the tetrahedra in the given order of the old triangles, and updates the nodes of its points.
   template <class NodeOf>
   void reorder(FillBoundary& boundary, std::span<const std::uint32_t> order, const NodeOf& node) const {
     const auto take = [&](auto& column) {

@@ -1,4 +1,4 @@
-// Steps: find_trouble, rings around the defects, proposal of heights and directions, apply_where_clear.
+// Steps: find_trouble; rings around the defects; proposal of heights and directions; apply_where_clear.
 #include "volmesh/layer/repair_envelope.h"
 
 #include <algorithm>
@@ -10,12 +10,12 @@
 namespace sterna::volmesh {
 namespace {
 
-constexpr double k_lowered = 0.7;    ///< share of the mean height around, at the defect itself: 0.9 would hardly change the boundary, 0.5 costs too much layer
-                                     ///< height
-constexpr std::uint8_t k_rings = 4;  ///< rings over which the lowering fades, so that no step becomes the next defect
+/// Factor on the mean height around the defect, at the defect itself; 0.9 would hardly change the boundary, and 0.5 would cost too much layer height.
+constexpr double k_lowered = 0.7;
+constexpr std::uint8_t k_rings = 4;  ///< number of rings over which the reduction decreases to zero, so that no step causes another defect
 constexpr std::uint8_t k_far = 255;
 
-/// Marks vertices of the top with a defect as ring 0.
+/// Marks vertices of the layer's top that have a defect as ring 0.
 Column<VertexId, std::uint8_t> find_trouble(const LayerBase& base, const FillBoundary& boundary, bool has_sheets, const std::vector<ErrorPlace>& places,
                                             const RunContext& context) {
   Column<VertexId, std::uint8_t> ring(base.wall.n_vertices(), k_far);
@@ -23,7 +23,7 @@ Column<VertexId, std::uint8_t> find_trouble(const LayerBase& base, const FillBou
   for (const PreflightFinding& finding : preflight(top, {.is_clear = true}, context).findings)
     for (const std::uint32_t t : finding.triangles)
       if (t < base.wall.n_triangles())
-        for (std::size_t k = 0; k < 3; ++k) {  // opened ridges reorder the triangles, disc cuts have additional growth lines
+        for (std::size_t k = 0; k < 3; ++k) {  // opened ridges change the order of triangles, and disc cuts add growth lines
           const std::uint32_t p = boundary.triangles[t][k];
           ring[p < ring.size() ? VertexId(p) : base.wall.triangles[TriangleId(t)][k]] = 0;
         }
@@ -42,7 +42,7 @@ void number_rings(const LayerBase& base, Column<VertexId, std::uint8_t>& ring) {
       if (ring[v] == k_far && std::ranges::any_of(base.topology.neighbours(v), [&](VertexId w) { return ring[w] == next - 1; })) ring[v] = next;
 }
 
-/// Proposes another height and direction for one vertex. Collapsed vertices and constrained directions stay.
+/// Proposes another height and direction for one vertex. Collapsed vertices and constrained directions are not changed.
 void lower_and_smooth(const LayerBase& base, const Envelope& envelope, VertexId v, double share, EnvelopeShape& proposal) {
   if (envelope.is_collapsed(v)) return;
   double height = envelope.height[v];

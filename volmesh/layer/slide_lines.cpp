@@ -18,28 +18,28 @@
 namespace sterna::volmesh {
 namespace {
 
-/// Trial steps, relative to the largest allowed step; the next smaller one is tried if none improves the cost.
+/// Trial steps, relative to the largest allowed step. If none improves the cost, the next smaller step is tried.
 constexpr std::array k_tried_steps = {0.5, 0.25, 0.1, 0.04, 0.015};
-constexpr int k_most_moves = 8;  ///< most moves of one growth line in a sweep
+constexpr int k_most_moves = 8;  ///< largest number of moves of a growth line in a sweep
 constexpr int k_sweeps = 3;
-constexpr double k_reserve = 0.75;                         ///< share of a hard limit above which a location is improved
-constexpr double k_regular_volumes = 3.0;                  ///< target ratio of the volume of a prism to that of the tetrahedron that fits it (G9)
-constexpr double k_cut_slope = 5.0;                        ///< excess of a side per difference of its share below k_good_cut_share
-constexpr double k_least_win = 0.02;                       ///< least relative reduction of the cost for which a growth line moves
-constexpr double k_far_reach = 2.5;                        ///< factor on slide_share: where slide_share was not sufficient for a hard limit
-constexpr double k_farthest = 0.6;                         ///< largest displacement of a top, as a share of its height, unless slide_share is larger
-constexpr double k_still_share = 0.02;                     ///< share of a growth line's height: displacement of the nodes within it decreases towards the wall
-constexpr double k_still_share_of_flat = 0.1;              ///< same share if flat cells of all growth lines have the same growth
-constexpr double k_far_reserve = 0.2, k_far_excess = 0.8;  ///< sides better than this by approximate centres need no exact centres
+constexpr double k_reserve = 0.75;             ///< fraction of a hard limit; locations above it are improved
+constexpr double k_regular_volumes = 3.0;      ///< target ratio of the volume of a prism to that of the tetrahedron that fits the prism (G9)
+constexpr double k_cut_slope = 5.0;            ///< factor from the difference between cut share and k_good_cut_share to the excess of a side
+constexpr double k_least_win = 0.02;           ///< a growth line moves only if this reduces the cost by at least this fraction
+constexpr double k_far_reach = 2.5;            ///< factor on slide_share, for growth lines at which slide_share was not sufficient to meet a hard limit
+constexpr double k_farthest = 0.6;             ///< largest displacement of a top, as a fraction of its height, unless slide_share is larger
+constexpr double k_still_share = 0.02;         ///< fraction of a growth line's height; the displacement of the nodes below it decreases towards the wall
+constexpr double k_still_share_of_flat = 0.1;  ///< the same fraction if flat cells of all growth lines have the same growth
+constexpr double k_far_reserve = 0.2, k_far_excess = 0.8;  ///< sides that are better than this with approximate centres need no exact centres
 constexpr int k_newton_steps = 30;
 constexpr double k_sum_tolerance = 1e-12;
 constexpr double k_most_power = 3.0, k_most_exponent = 3.0;
-constexpr double k_most_change = 10.0;  ///< largest change of a ratio, times the height over the edge: it inclines faces by less than 68 degrees
+constexpr double k_most_change = 10.0;  ///< largest change of a ratio, times the height over the edge; it inclines faces by less than 68 degrees
 constexpr double k_growth_rounding = 1e-6;
 constexpr std::uint32_t k_no_tet = 0xffffffffu;
 constexpr std::size_t k_search_chunk = 1 << 13;
 
-/// Returns the cost of a value relative to its limit: zero within the limit.
+/// Returns the cost of a value, given relative to its limit; zero within the limit.
 double cost_of(double excess) { return excess > 1.0 ? excess * excess - 1.0 : 0.0; }
 
 struct Solved {
@@ -47,7 +47,7 @@ struct Solved {
   std::vector<double> steps;
 };
 
-/// Returns steps from[j] exp(x weight[j]) with this sum; x by Newton's method from `start`, between `least` and `most`. Empty if there is no such x.
+/// Returns the steps from[j] exp(x weight[j]) with this sum. Finds x by Newton's method from `start`, between `least` and `most`. Empty if there is no such x.
 std::optional<Solved> solve_sum(const std::vector<double>& from, const std::vector<double>& weight, double sum, double start, double least, double most) {
   Solved solved{start, std::vector<double>(from.size())};
   for (int i = 0; i < k_newton_steps; ++i) {
@@ -58,15 +58,15 @@ std::optional<Solved> solve_sum(const std::vector<double>& from, const std::vect
       slope += weight[j] * solved.steps[j];
     }
     if (std::abs(value) < k_sum_tolerance * sum) return solved;
-    if (!(slope > 0.0)) return std::nullopt;  // equal steps
-    solved.exponent -= value / slope;         // convex: from above the iterate never falls below the solution, from below this is not needed
+    if (!(slope > 0.0)) return std::nullopt;  // all steps are equal
+    solved.exponent -= value / slope;         // the function is convex, so iterates from above never fall below the solution
     if (!(solved.exponent > least && solved.exponent < most)) return std::nullopt;
   }
   return std::nullopt;
 }
 
-/// Returns steps with another sum, but the same first step and the same shape of growth (each step's ratio to the first to a common power); empty if no power
-/// gives this sum.
+/// Returns steps with another sum, but with the same first step and the same shape of growth: the ratio of each step to the first is raised to a common power.
+/// Empty if no power gives this sum.
 std::optional<std::vector<double>> steps_with_sum(const std::vector<double>& steps, double sum) {
   std::vector<double> logs;
   for (const double step : steps) logs.push_back(std::log(step / steps[0]));
@@ -75,9 +75,9 @@ std::optional<std::vector<double>> steps_with_sum(const std::vector<double>& ste
   return std::move(solved->steps);
 }
 
-/// Returns steps with another sum whose flat steps are kept: each is multiplied by exp(x w), where w is 0 for the first, 1 for the last and fades out where
-/// steps are flat, because the ratios of flat cells must equal those of the adjacent growth lines (growth_law.h). Empty if this needs ratios that would
-/// incline the faces between flat cells.
+/// Returns steps with another sum, while flat steps are kept. Each step is multiplied by exp(x w), where w is 0 for the first step, 1 for the last step, and
+/// small where steps are flat, because the ratios of flat cells must equal those of the adjacent growth lines (growth_law.h). Empty if this needs ratios that
+/// would incline the faces between flat cells.
 std::optional<std::vector<double>> steps_above_flat_ones(const std::vector<double>& steps, double sum, double edge) {
   const double whole = std::log(steps.back() / steps[0]);
   if (!(whole > 0.0)) return std::nullopt;
@@ -102,10 +102,9 @@ std::vector<double> steps_of(const std::vector<Point>& nodes) {
   return steps;
 }
 
-/// Returns the growth line with `share` of its height: its curve scaled about the wall, with nodes on the scaled curve at the new steps; the first cell is
+/// Returns the growth line at `share` of its height. Its curve is scaled about the wall, with nodes on the scaled curve at the new steps. The first cell is
 /// kept.
-/// \param edge m, the longest edge of the wall at the growth line, if flat cells of all growth lines have the same growth; 0: each growth line by its own
-/// ratio
+/// \param edge m: longest edge of the wall at the growth line if flat cells of all growth lines have the same growth; 0 if each growth line has its own ratio
 std::optional<std::vector<Point>> scaled_line(const std::vector<Point>& nodes, double share, double edge) {
   const std::vector<double> steps = steps_of(nodes);
   double length = 0.0;
@@ -113,7 +112,7 @@ std::optional<std::vector<Point>> scaled_line(const std::vector<Point>& nodes, d
   const std::optional<std::vector<double>> wanted = edge > 0.0 ? steps_above_flat_ones(steps, share * length, edge) : steps_with_sum(steps, share * length);
   if (!wanted) return std::nullopt;
   std::vector<Point> result = nodes;
-  double along = (*wanted)[0] / share, passed = 0.0;  // on the original curve: the new node; start of segment k
+  double along = (*wanted)[0] / share, passed = 0.0;  // positions on the original curve: of the new node, and of the start of segment k
   std::size_t k = 0;
   for (std::size_t j = 2; j + 1 < nodes.size(); ++j) {
     along += (*wanted)[j - 1] / share;
@@ -125,7 +124,8 @@ std::optional<std::vector<Point>> scaled_line(const std::vector<Point>& nodes, d
   return result;
 }
 
-/// Moves nodes with the top, decreasingly towards the wall; `still`, a share of the height, is the length scale. The first cell stays.
+/// Moves the nodes with the top, by distances that decrease towards the wall. \p still is the length scale of this decrease, as a fraction of the height. The
+/// first cell stays.
 void shift_top(const Vec3& shift, double still, std::vector<Point>& nodes) {
   for (std::size_t j = 2; j < nodes.size(); ++j) {
     const double t = distance(nodes[0], nodes[j]) / distance(nodes[0], nodes.back());
@@ -151,7 +151,8 @@ LineSlider::LineSlider(HybridMesh& layers, FillBoundary& boundary, const Improve
 void LineSlider::lock_lines() {
   const LayerBlock& layers = mesh_.layers;
   is_locked_.assign(layers.n_lines(), 0);
-  for (std::size_t line = 0; line < layers.n_lines(); ++line) is_locked_[line] = layers.n_steps(line) < 3;  // no node to redistribute
+  // A growth line is locked if it has no node to redistribute.
+  for (std::size_t line = 0; line < layers.n_lines(); ++line) is_locked_[line] = layers.n_steps(line) < 3;
   for (std::size_t column = 0; column < layers.n_columns(); ++column)
     if (layers.n_collapsed(column) > 0)
       for (const Line line : layers.base[column]) is_locked_[line] = 1;
@@ -189,7 +190,7 @@ double LineSlider::excess_of_tet(const TetraResult& tets, std::uint32_t t) const
 LineSlider::Interface LineSlider::interface_of(const TetraResult& tets, std::uint32_t column, std::uint32_t tet) const {
   const LayerBlock& layers = mesh_.layers;
   const Cell cell = layers.cell(column, layers.layers_of_column(column) - 1);
-  WedgePoints p;  // the last cell or, if a growth line ends a layer below the others, the last steps of all three
+  WedgePoints p;  // the last cell; if a growth line ends one layer below the others, the last steps of all three growth lines
   for (std::size_t k = 0; k < 3; ++k) {
     const std::size_t top = layers.top(layers.base[column][k]).index();
     p[k] = mesh_.points.raw()[top - 1];
@@ -215,7 +216,7 @@ std::size_t LineSlider::side_of(std::uint32_t column, std::size_t k) const {
   return static_cast<std::size_t>(std::ranges::lower_bound(sides_, Side{{a, b}, 0}) - sides_.begin());
 }
 
-/// Returns the other column's entry for the same edge; the side itself if there is none.
+/// Returns the entry of the other column for the same edge; the side itself if there is no other column.
 std::size_t LineSlider::partner(std::size_t side) const {
   if (side + 1 < sides_.size() && sides_[side + 1].ends == sides_[side].ends) return side + 1;
   if (side > 0 && sides_[side - 1].ends == sides_[side].ends) return side - 1;
@@ -232,7 +233,7 @@ double LineSlider::excess_of_side(std::size_t side) const {
   };
   const std::size_t other = partner(side);
   const auto& base = layers.base[sides_[side].column];
-  Line from = sides_[side].ends[0], to = sides_[side].ends[1];  // in the sense of the first column
+  Line from = sides_[side].ends[0], to = sides_[side].ends[1];  // in the direction of the first column
   for (std::size_t k = 0; k < 3; ++k)
     if (base[k] == to && base[(k + 1) % 3] == from) std::swap(from, to);
   const std::uint32_t own = sides_[side].column, beyond = sides_[other].column;
@@ -279,7 +280,7 @@ std::vector<std::uint32_t> LineSlider::tets_on_columns(const TetraResult& tets) 
   return tet_on;
 }
 
-/// Returns growth lines at volume steps between tetrahedra near or beyond the limit.
+/// Returns growth lines at volume steps between tetrahedra that are near or beyond the limit.
 std::vector<LineSlider::Fault> LineSlider::steps_beyond(const TetraResult& tets) const {
   const std::size_t n_lines = mesh_.layers.n_lines();
   std::vector<double> smallest(n_lines, k_infinity), largest(n_lines, 0.0);
@@ -307,7 +308,7 @@ std::vector<LineSlider::Fault> LineSlider::steps_beyond(const TetraResult& tets)
   return faults;
 }
 
-/// Returns growth lines at locations near or beyond hard limits, worst first; each once.
+/// Returns growth lines at locations near or beyond hard limits, worst first, each once.
 std::vector<LineSlider::Fault> LineSlider::find_faults(const TetraResult& tets, const std::vector<std::uint32_t>& tet_on) const {
   const std::size_t n_lines = mesh_.layers.n_lines();
   const auto add = [&](double excess, Line line, std::vector<Fault>& faults) {
@@ -332,7 +333,8 @@ std::vector<LineSlider::Fault> LineSlider::find_faults(const TetraResult& tets, 
           if (tet_on[column] == k_no_tet) continue;
           const double excess = interface_of(tets, static_cast<std::uint32_t>(column), tet_on[column]).worst() / k_reserve;
           if (excess <= 1.0) continue;
-          for (const std::uint32_t v : tets.tetrahedra[tet_on[column]]) add(excess, v, found);  // the column's three, and possibly one across a fold
+          // The three vertices of the column, and possibly one across a fold.
+          for (const std::uint32_t v : tets.tetrahedra[tet_on[column]]) add(excess, v, found);
         }
       },
       k_search_chunk));
@@ -376,8 +378,8 @@ std::vector<LineSlider::Star> LineSlider::stars_of(const TetraResult& tets, cons
   return stars;
 }
 
-/// Returns pairs of a star's tetrahedra with a common face, ascending by the position of the later one, then by that of the other. O(n log n): growth lines
-/// under stars of sliver tetrahedra have thousands.
+/// Returns pairs of a star's tetrahedra with a common face. They are sorted by the position of the later one, then by that of the other. O(n log n), because
+/// growth lines under stars of sliver tetrahedra have thousands.
 std::vector<std::array<std::uint32_t, 2>> LineSlider::neighbours_in(const TetraResult& tets, const std::vector<std::uint32_t>& star) const {
   struct Face {
     std::array<std::uint32_t, 3> corners;  ///< ascending
@@ -403,7 +405,7 @@ std::vector<std::array<std::uint32_t, 2>> LineSlider::neighbours_in(const TetraR
   return pairs;
 }
 
-/// Returns the volume step between two tetrahedra over the largest allowed one.
+/// Returns the ratio of the volume step between two tetrahedra to the largest allowed step.
 double LineSlider::excess_of_step(const TetraResult& tets, const std::array<std::uint32_t, 2>& pair) const {
   const auto volume = [&](std::uint32_t t) {
     const std::array<Vec3, 4> p = corners(tets, t);
@@ -412,7 +414,8 @@ double LineSlider::excess_of_step(const TetraResult& tets, const std::array<std:
   return check_parts::deviation(volume(pair[0]) / volume(pair[1])) / largest_step_;
 }
 
-/// Returns the cost of a star. Stops when the sum reaches `stop_at`. The most expensive terms come last: sides of all layers.
+/// Returns the cost of a star. Stops when the sum reaches `stop_at`. Therefore the terms that take longest, those of the sides of all layers, are computed
+/// last.
 double LineSlider::cost(const TetraResult& tets, const Star& star, double stop_at) const {
   double sum = 0.0;
   for (const auto& pair : star.neighbours) sum += cost_of(excess_of_step(tets, pair) / k_reserve);
@@ -443,7 +446,7 @@ void LineSlider::put(Line line, const std::vector<Point>& nodes) {
   boundary_.points[line] = nodes.back();
 }
 
-/// Returns the largest ratio of consecutive cells allowed for the growth line.
+/// Returns the largest allowed ratio of consecutive cells of the growth line.
 double LineSlider::allowed_growth(Line line) const {
   const LayerRequest& request = mesh_.request;
   const double asked = request.line_max_growth.empty() ? request.max_growth : request.line_max_growth[line];
@@ -462,7 +465,7 @@ Vec3 LineSlider::to_middle(Line line, const Star& star) const {
   return n > 0 ? sum / n - boundary_.points[line] : Vec3{};
 }
 
-/// Makes one move: the best of decreasing steps up, down and sideways; returns false if no step improves the cost.
+/// Makes one move, the best of decreasing steps up, down and sideways. Returns false if no step improves the cost.
 bool LineSlider::help(const TetraResult& tets, Line line, const Star& star, Moved& state) {
   const double cost_now = cost(tets, star, std::numeric_limits<double>::infinity());
   if (!(cost_now > 0.0)) return false;
@@ -471,7 +474,7 @@ bool LineSlider::help(const TetraResult& tets, Line line, const Star& star, Move
   const Vec3 up = normalized(now.back() - now[now.size() - 2]), middle = to_middle(line, star);
   const Vec3 aside = normalized(middle - dot(middle, up) * up), across = cross(up, aside);
   double edge = 0.0;
-  if (!mesh_.request.line_first_room.empty())  // flat cells have the same growth
+  if (!mesh_.request.line_first_room.empty())  // flat cells of all growth lines have the same growth
     for (const std::uint32_t column : star.columns)
       for (const Line other : mesh_.layers.base[column])
         edge = std::max(edge, distance(state.nodes.front(), mesh_.points[NodeId(mesh_.layers.first_node[other])]));
@@ -527,7 +530,7 @@ std::vector<LineSlider::Line> LineSlider::lines_seen_from(const TetraResult& tet
   return lines;
 }
 
-/// Returns groups of mutually independent faults, assigned in their order: the faults of a group can be treated at the same time.
+/// Returns groups of faults that do not affect each other, so that the faults of a group can be treated at the same time. Faults are assigned in their order.
 std::vector<std::vector<std::uint32_t>> LineSlider::independent_groups(const std::vector<Star>& stars,
                                                                        const std::vector<std::vector<std::uint32_t>>& seen) const {
   std::vector<std::vector<std::uint32_t>> groups;
@@ -589,7 +592,7 @@ std::vector<std::uint32_t> LineSlider::slide(const TetraResult& tets) {
   return moved;
 }
 
-/// Returns for each fault the other faults whose costs it changes or that change its own, ascending.
+/// Returns for each fault the other faults whose costs it changes, or that change its cost, ascending.
 std::vector<std::vector<std::uint32_t>> LineSlider::faults_seen(const TetraResult& tets, const std::vector<Fault>& faults,
                                                                 const std::vector<Star>& stars) const {
   std::vector<std::vector<Line>> lines(faults.size());

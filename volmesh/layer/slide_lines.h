@@ -1,4 +1,4 @@
-// Mutual adaptation of the last prisms and the tetrahedra on them: tops of growth lines move slightly after the tetrahedra were made.
+// Adapts the last prisms and the tetrahedra on them to each other. After the tetrahedra were made, tops of growth lines move slightly.
 #pragma once
 
 #include <algorithm>
@@ -17,25 +17,25 @@
 
 namespace sterna::volmesh {
 
-/// Improvement of tetrahedra keeps the boundary. Where the boundary itself is the cause (folds of the layer's top, sides of prisms that cannot be decomposed,
-/// columns that get narrow), the LineSlider moves the end of a growth line slightly lower, higher or sideways. The nodes of the growth line follow: the first
-/// cell stays to the bit, the other cells keep their growth law.
+/// The improvement of tetrahedra keeps the boundary. If the boundary itself is the cause of bad cells, the LineSlider moves the end of a growth line slightly
+/// lower, higher or sideways. Such causes are folds of the layer's top, sides of prisms that cannot be decomposed, and columns that get narrow. The nodes of
+/// the growth line follow: the first cell stays bit-exactly the same, and the other cells keep their growth law.
 class LineSlider {
  public:
-  /// \p layers: from assemble_layers(), without tetrahedra; \p boundary: boundary_of(layers). Both must outlive this and are changed by slide().
+  /// \p layers made by assemble_layers(), without tetrahedra; \p boundary is boundary_of(layers). slide() changes both, and both must outlive this object.
   LineSlider(HybridMesh& layers, FillBoundary& boundary, const ImproveOptions& options, const RunContext& context);
 
-  /// Makes one round over the growth lines at the worst locations. Each moves, by a pattern search with decreasing steps within `slide_share` of its height
-  /// (half of it up), to where the costs around it are lower; from the second round on the range is k_far_reach times larger where a hard limit is missed.
-  /// Costs: angles beyond the limits of improvement, steps of volume and height between last prisms and tetrahedra and among tetrahedra, face weights
-  /// (OpenFOAM), sides that are nearly impossible to decompose. Growth lines at open boundaries, beside collapsed ones, and those that end on outer faces
-  /// stay.
-  /// \pre tets fill the boundary, every cell valid.
-  /// \post the same, by exact tests of all cells at growth lines that moved; no growth line grows faster than before or than requested.
-  /// Returns the growth lines that moved, ascending. Parallel: growth lines that do not affect each other's costs move at the same time. At most k_most_lines;
-  /// some ms each.
+  /// Makes one round over the growth lines at the worst locations. Each growth line moves to where the costs around it are lower. This is a pattern search with
+  /// decreasing steps within `slide_share` of its height (half of it upwards). From the second round on, the range is k_far_reach times larger if a hard limit
+  /// is missed. Costs are: angles beyond the limits of improvement; steps of volume and height between last prisms and tetrahedra, and among tetrahedra; face
+  /// weights (OpenFOAM); sides that are nearly impossible to decompose. Growth lines at open boundaries, beside collapsed ones, and those that end on outer
+  /// faces do not move.
+  /// \pre the tetrahedra fill the boundary, and every cell is valid
+  /// \post the same, checked by exact tests of all cells at growth lines that moved; no growth line grows faster than before or than requested. Returns the
+  /// growth lines that moved, ascending. Parallel: growth lines that do not affect each other's costs move at the same time. Moves at most k_most_lines growth
+  /// lines, which take some ms each
   std::vector<std::uint32_t> slide(const TetraResult& tets);
-  std::size_t n_moved() const { return moved_.size(); }  ///< growth lines, in all rounds
+  std::size_t n_moved() const { return moved_.size(); }  ///< number of growth lines that moved in all rounds
 
   static constexpr std::size_t k_most_lines = 4000;
 
@@ -49,22 +49,22 @@ class LineSlider {
   /// All entities that depend on the height of a growth line.
   struct Star {
     std::vector<std::uint32_t> columns, tets;
-    std::vector<std::uint32_t> tet_on;                     ///< per column: the tetrahedron on its top
-    std::vector<std::array<std::uint32_t, 2>> neighbours;  ///< pairs of the tetrahedra with a common face
+    std::vector<std::uint32_t> tet_on;                     ///< for each column the tetrahedron on its top
+    std::vector<std::array<std::uint32_t, 2>> neighbours;  ///< pairs of these tetrahedra with a common face
   };
   struct Fault {
-    double excess;  ///< the worst at the growth line, over its limit
+    double excess;  ///< the worst value at the growth line, relative to its limit
     Line line;
   };
-  /// Original state of a growth line at the beginning of the first round, and its present displacement.
+  /// State of a growth line at the beginning of the first round, and its displacement since.
   struct Moved {
     std::vector<Point> nodes;
-    double share = 1.0;  ///< share of the original height
-    Vec3 shift;          ///< additional displacement of its top, m
-    double reach = 0.0;  ///< limit of share and shift, over the height
+    double share = 1.0;  ///< fraction of the original height
+    Vec3 shift;          ///< m, additional displacement of its top
+    double reach = 0.0;  ///< limit of the height change and of the displacement, relative to the height
   };
   struct Interface {
-    double volume, height, weight;  ///< each over its limit
+    double volume, height, weight;  ///< ratio of each value to its limit
     double worst() const { return std::max({volume, height, weight}); }
   };
 
@@ -99,9 +99,9 @@ class LineSlider {
   GateTable gates_;
   QualityLimits limits_;
   double share_;
-  double largest_step_ = 0.0;  ///< limit of the volume ratio of tetrahedra with a common face; the weight of a face is that of their volumes
+  double largest_step_ = 0.0;  ///< largest ratio of the volumes of tetrahedra with a common face; these volumes also determine the weight of the face
   const RunContext& context_;
-  std::vector<std::uint8_t> is_locked_;  ///< per growth line
+  std::vector<std::uint8_t> is_locked_;  ///< flag of each growth line
   std::vector<Side> sides_;              ///< sides of all columns, sorted
   std::map<Line, Moved> moved_;
   int n_rounds_ = 0;

@@ -13,11 +13,11 @@ namespace {
 
 using Origin = BoundarySplits::Origin;
 
-/// Splits of one of the two surfaces that form the tetrahedra's boundary.
+/// Splits on one of the two surfaces that form the boundary of the tetrahedra.
 struct SplitPart {
   const TriMesh& mesh;
-  std::size_t first_triangle;            ///< first triangle of the surface in the boundary
-  std::vector<std::size_t> points = {};  ///< indices into splits.points of the points on this surface
+  std::size_t first_triangle;            ///< number of the first triangle of the surface in the boundary
+  std::vector<std::size_t> points = {};  ///< indices in splits.points of the points on this surface
   bool has_triangle(std::size_t t) const { return t >= first_triangle && t < first_triangle + mesh.n_triangles(); }
   TriangleId triangle(const Origin& origin) const { return TriangleId(origin.triangle - first_triangle); }
 };
@@ -27,7 +27,7 @@ void find_points(const BoundarySplits& splits, SplitPart& part) {
     if (part.has_triangle(splits.origins[i].triangle)) part.points.push_back(i);
 }
 
-/// Returns the sum of weight * value over a triangle's corners; corners with zero weight are not evaluated.
+/// Returns the sum of weight * value over the corners of a triangle. Values at corners with zero weight are not evaluated.
 template <class T, class F>
 T mixed(const TriangleVertices& corners, const Origin& origin, T sum, const F& value) {
   for (std::size_t k = 0; k < 3; ++k)
@@ -35,7 +35,7 @@ T mixed(const TriangleVertices& corners, const Origin& origin, T sum, const F& v
   return sum;
 }
 
-/// Returns the surface with its triangles split, new vertices on its old triangles.
+/// Returns the surface with split triangles. New vertices lie on the old triangles.
 TriMesh split_mesh(const SplitPart& part, const BoundarySplits& splits, std::span<const std::uint32_t> node2vertex) {
   const TriMesh& old = part.mesh;
   TriMesh mesh;
@@ -54,7 +54,7 @@ TriMesh split_mesh(const SplitPart& part, const BoundarySplits& splits, std::spa
   return mesh;
 }
 
-/// Returns the vertex of its surface for each point of the split boundary: old vertices keep their number, new ones follow in their order.
+/// Returns for each point of the split boundary the vertex on its surface. Old vertices keep their number, and new ones follow in their order.
 std::vector<std::uint32_t> vertices_of_nodes(const SplitPart& wall, const SplitPart& outer, const BoundarySplits& splits) {
   const std::size_t n_wall = wall.mesh.n_vertices(), n_old = n_wall + outer.mesh.n_vertices();
   std::vector<std::uint32_t> node2vertex(n_old + splits.points.size());
@@ -64,8 +64,8 @@ std::vector<std::uint32_t> vertices_of_nodes(const SplitPart& wall, const SplitP
   return node2vertex;
 }
 
-/// Returns the envelope with heights and directions of new growth lines: from the wall's new vertex to the envelope's new point. A new point is collapsed if
-/// all corners with a non-zero weight are collapsed.
+/// Returns the envelope with the heights and directions of new growth lines, which run from the wall's new vertex to the envelope's new point. A new point is
+/// collapsed if all corners with a non-zero weight are collapsed.
 Envelope split_envelope(const Envelope& old, const SplitPart& part, const BoundarySplits& splits, const TriMesh& new_wall) {
   Envelope envelope = old;
   for (std::size_t i = 0; i < part.points.size(); ++i) {
@@ -88,7 +88,7 @@ Envelope split_envelope(const Envelope& old, const SplitPart& part, const Bounda
   return envelope;
 }
 
-/// Converts boundary points and splits, as numbered by fill(), to the points of the new fill_boundary().
+/// Converts boundary points and splits from the numbers of fill() to the points of the new fill_boundary().
 void renumber(const SplitPart& wall, const SplitPart& outer, std::span<const std::uint32_t> node2vertex, TetraResult& tets, const RunContext& context) {
   const std::size_t n_wall = wall.mesh.n_vertices(), n_old = n_wall + outer.mesh.n_vertices();
   std::vector<std::uint8_t> is_outer(node2vertex.size(), 0);

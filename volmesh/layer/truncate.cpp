@@ -10,17 +10,19 @@
 namespace sterna::volmesh {
 namespace {
 
-/// Shares of the height of a regular tetrahedron on the top: the target for the last cell; the least height whose step is a good cell (a tetrahedron on a
-/// step of this height has an angle of about 6 degrees); and the tallest last cell that fewer layers may produce, if the last cell is not taller already.
+/// Fractions of the height of a regular tetrahedron on the top. k_wanted_last is the target for the last cell. k_least_step is the smallest height whose step
+/// is a good cell (a tetrahedron on a step of this height has an angle of about 6 degrees). k_most_last limits the last cell that fewer layers may produce,
+/// unless the last cell is already taller.
 constexpr double k_wanted_last = 0.5, k_least_step = 0.12, k_most_last = 1.5;
 constexpr double k_rounding = 1.0 + 1e-9;  ///< tolerance for heights that are compared with n h0, and for growth
-constexpr double k_used_growth = 0.98;     ///< share of max_growth: the remainder is for curved growth lines, whose cells grow by more than their heights
+/// Fraction of max_growth that is used; the remainder is for curved growth lines, whose cells grow by more than their heights.
+constexpr double k_used_growth = 0.98;
 
 /// Possible numbers of layers of a growth line.
 struct LineChoice {
-  int wanted = 0;     ///< without regard to neighbours
-  int least = 0;      ///< beside neighbours with fewer layers
-  int thin_from = 0;  ///< from this number on the last cell has less than k_least_step
+  int wanted = 0;     ///< number of layers without regard to neighbours
+  int least = 0;      ///< smallest number of layers beside neighbours with fewer layers
+  int thin_from = 0;  ///< from this number on, the last cell is lower than k_least_step
 };
 
 class LineTruncation {
@@ -33,7 +35,7 @@ class LineTruncation {
     const double height = normal_height(base_, envelope_, v), h0 = scale_.first_step(v), regular = k_regular_height * envelope_edge(base_, envelope_, v);
     const LineGrowth law = scale_.growth(v);
     const auto last = [&](int n) { return last_height(law, height, n); };
-    // Growth and height of the last cell fall with the number of layers.
+    // The growth and the height of the last cell decrease with the number of layers.
     const auto least_with_growth = [&](double most) {
       return first_of(1, all, [&](int n) { return n == 1 ? height <= h0 * k_rounding : growth_for_height(h0, height, n) <= most * k_rounding; });
     };
@@ -54,7 +56,7 @@ class LineTruncation {
   }
 
  private:
-  /// Returns the least n in [low, high] for which a condition holds. The condition holds from some n on, and always at `high`.
+  /// Returns the smallest n in [low, high] for which a condition holds. The condition must hold from some n on, and is assumed to hold at `high`.
   template <class IsTrue>
   static int first_of(int low, int high, const IsTrue& is_true) {
     while (low < high) {
@@ -70,7 +72,7 @@ class LineTruncation {
   const Envelope& envelope_;
 };
 
-/// Requires all layers in all columns around multi-normal fans: close_fans.h makes explicit cells there.
+/// Requires all layers in all columns around multi-normal fans, because close_fans.h makes explicit cells there.
 void keep_fans(const LayerBase& base, const EnvelopeScale& scale, std::vector<std::uint16_t>& least) {
   if (base.ridges == nullptr) return;
   std::vector<std::uint8_t> is_of_fan(least.size(), 0);
@@ -108,7 +110,7 @@ LayerNumbers::LayerNumbers(const LayerBase& base, const EnvelopeScale& scale, co
 
 namespace {
 
-/// Calls visit(v, queue) for all vertices, then for the vertices put into the queue, until the queue is empty.
+/// Calls visit(v, queue) for all vertices, then for the vertices that were put into the queue, until the queue is empty.
 template <class Visit>
 void visit_until_settled(const LayerBase& base, const Visit& visit) {
   std::vector<VertexId> changed;
@@ -122,8 +124,8 @@ void visit_until_settled(const LayerBase& base, const Visit& visit) {
 
 }  // namespace
 
-/// Lowers numbers towards those of neighbours, as far as their growth lines permit: to one more, or to the same number where one more is thin. The result is
-/// the largest solution below the given numbers, for any order of visits.
+/// Lowers numbers towards those of neighbours, as far as their growth lines permit: to one more than the neighbour, or to the same number if one more would be
+/// thin. The result is the largest solution below the given numbers, for any order of visits.
 void LayerNumbers::close_downwards() {
   visit_until_settled(base_, [&](VertexId v, std::vector<VertexId>& next) {
     if (is_fixed_[v.index()]) return;
@@ -145,7 +147,7 @@ void LayerNumbers::close_downwards() {
   });
 }
 
-/// Raises numbers towards those of neighbours: to one less, or to the same number where the neighbours are thin.
+/// Raises numbers towards those of neighbours: to one less than the neighbour, or to the same number if the neighbour would be thin.
 void LayerNumbers::close_upwards() {
   visit_until_settled(base_, [&](VertexId v, std::vector<VertexId>& next) {
     if (is_fixed_[v.index()]) return;

@@ -10,7 +10,7 @@ namespace sterna::volmesh {
 VisibilityReport report_visibility(const LayerBase& base) {
   VisibilityReport report;
   report.angle.resize(base.visibility.size());
-  Column<VertexId, double> worst_line(base.visibility.size(), 0.0);  // per ridge base vertex
+  Column<VertexId, double> worst_line(base.visibility.size(), 0.0);  // for each ridge base vertex
   std::vector<VertexId> hard;
   for (const VertexId v : base.visibility.ids()) {
     const double angle = std::acos(std::clamp(base.visibility[v], -1.0, 1.0));

@@ -11,12 +11,13 @@ namespace sterna::volmesh {
 
 inline constexpr std::array<double, 4> k_visibility_limits_deg = {30.0, 45.0, 60.0, 80.0};
 
-/// Visibility angle of a vertex: between the direction with the best worst-case visibility of its faces and the normal of the worst face, rad.
+/// Visibility angle of a vertex in rad: the angle between the direction with the best worst-case visibility of its faces and the normal of the worst face.
 struct VisibilityReport {
   Column<VertexId, double> angle;
   double max_angle = 0.0;
-  std::array<double, 4> share_above{};  ///< share of the given vertices above k_visibility_limits_deg; for multi-normal fans the worst growth line counts
-  std::vector<ErrorPlace> hardest;      ///< the worst ten above the first of these limits
+  /// Fraction of the given vertices above each of k_visibility_limits_deg; for multi-normal fans the worst growth line is used.
+  std::array<double, 4> share_above{};
+  std::vector<ErrorPlace> hardest;  ///< the ten worst vertices above the first of these limits
 };
 
 VisibilityReport report_visibility(const LayerBase& base);

@@ -20,7 +20,7 @@ TriangleVertices shifted(TriangleVertices v, std::size_t by) {
   return v;
 }
 
-/// Returns the reason why the envelope of the part cannot be made separately; empty if it can.
+/// Returns the reason why the envelope of the part cannot be made separately; empty if it can be.
 std::string objection(const Domain& domain, const PlacedPart& part, const Column<TriangleId, TriangleId>& surface2wall, WholePart& whole) {
   const std::size_t n = part.own->n_triangles();
   if (n == 0 || part.first_triangle + n > surface2wall.size()) return "the surface no longer contains all of the part";
@@ -50,7 +50,7 @@ Column<VertexId, std::uint32_t> groups_of(const TriMesh& wall, std::span<const P
   return group;
 }
 
-/// Returns the part in its own frame, with its patches on the wall.
+/// Returns the part in its own frame, with the patches that it has on the wall.
 PartEnvelopeTask task_of(const MeshingSite& site, const WholePart& whole) {
   const PlacedPart& part = site.options.parts[whole.part];
   PartEnvelopeTask task{.wall = {}, .options = site.given_envelope, .rules = {}, .smooth_angle = part.smooth_angle};
@@ -77,7 +77,7 @@ void take(const Envelope& from, VertexId v, const Transform& placement, Envelope
   if (!(placement == Transform{})) to.direction[w] = placement.vector(from.direction[v]);
 }
 
-/// The wall without its whole parts, with all input of its envelope.
+/// The wall without its whole parts, and all input for its envelope.
 struct Rest {
   TriMesh wall;
   Column<VertexId, VertexId> rest2wall;
@@ -130,7 +130,7 @@ void add_rest(const MeshingSite& site, const Column<VertexId, std::uint32_t>& gr
   for (const VertexId v : rest.rest2wall.ids()) take(own, v, {}, envelope, rest.rest2wall[v]);
 }
 
-/// Lowers heights until all parts are clear of each other and of their surroundings. Returns the vertices that it changed, ascending.
+/// Lowers heights until all parts are clear of each other and of their surroundings. Returns the changed vertices, ascending.
 std::vector<VertexId> clear_of_each_other(MeshingSite& site, const Column<VertexId, std::uint32_t>& group, Envelope& envelope, const RunContext& context) {
   const EnvelopeShape before = envelope;
   keep_inside(site.base, site.options.envelope, envelope, context);

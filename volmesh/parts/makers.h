@@ -1,4 +1,4 @@
-// Callbacks of a run: they make envelopes and supply the true surface of walls.
+// Callbacks of a run. They make envelopes and return the true surface of walls.
 #pragma once
 
 #include "volmesh/layer/true_surface.h"
@@ -11,7 +11,7 @@ namespace sterna::volmesh {
 struct Makers {
   PartEnvelopeMaker part_envelope;  ///< makes the envelopes of placed parts; empty: part_envelope()
   WallEnvelopeMaker wall_envelope;  ///< makes the envelope of a wall without such parts; empty: build_envelope()
-  TrueSurface true_surface;         ///< supplies the positions of new wall vertices when boundary triangles are split; empty: they stay on their triangle
+  TrueSurface true_surface;  ///< returns the positions of new wall vertices when boundary triangles are split; empty: new vertices stay on their triangle
 };
 
 }  // namespace sterna::volmesh

@@ -1,4 +1,4 @@
-// The envelope of a separate part of the wall, in the frame in which the part was meshed: independent of its placement and surroundings.
+// The envelope of a separate part of the wall, in the frame in which the part was meshed. It does not depend on the placement and the surroundings of the part.
 #pragma once
 
 #include <functional>
@@ -15,7 +15,7 @@ namespace sterna::volmesh {
 
 /// Complete input of a part's envelope.
 struct PartEnvelopeTask {
-  TriMesh wall;  ///< in the part's own frame; patches with their kinds, all of them with layers
+  TriMesh wall;  ///< wall in the part's own frame; its patches have kinds, and all of them carry layers
   EnvelopeOptions options;
   std::vector<PatchRule> rules;       ///< rules whose name matches a patch of the part
   double smooth_angle = k_automatic;  ///< rad: MeshCase::smooth_angle of the part
@@ -23,15 +23,15 @@ struct PartEnvelopeTask {
 
 struct PartEnvelope {
   Envelope envelope;
-  double feature_angle = 0.0;  ///< rad, user-defined or detected for this part
+  double feature_angle = 0.0;  ///< rad, given by the user or detected for this part
 };
 
-/// Runs build_envelope() for the part without surroundings, or `make` in its place.
-/// \pre wall closed
+/// Runs build_envelope() for the part without its surroundings. If `make` is set, runs `make` instead.
+/// \pre the wall is closed
 /// \throws Error(self_intersection) if the part crosses itself; errors of the stages
 PartEnvelope part_envelope(const PartEnvelopeTask& task, const RunContext& context, const WallEnvelopeMaker& make = {});
 
-/// Makes such envelopes: part_envelope(), or a function that returns known ones.
+/// Makes such envelopes. It is part_envelope(), or a function that returns known envelopes.
 using PartEnvelopeMaker = std::function<PartEnvelope(const PartEnvelopeTask&, const RunContext&)>;
 
 }  // namespace sterna::volmesh

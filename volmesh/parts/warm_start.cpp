@@ -15,12 +15,12 @@
 namespace sterna::volmesh {
 namespace {
 
-/// Share of the target that counts as full height (layer_report.cpp).
+/// Fraction of the target that counts as full height (layer_report.cpp).
 constexpr double k_full_height = 0.9;
-/// Sine between an edge and the normal at its end below which the edge does not define a direction in the tangent plane.
+/// Smallest sine between an edge and the normal at its end. With a smaller sine the edge does not define a direction in the tangent plane.
 constexpr double k_least_sine = 1e-3;
 
-/// The wall around a vertex for given points: angle-weighted normal, worst cosine between a direction and the normals of the triangles.
+/// The wall around a vertex for given points. Computes the angle-weighted normal, and the smallest cosine between a direction and the normals of the triangles.
 class Surroundings {
  public:
   Surroundings(const LayerBase& base, const Column<VertexId, Point>& points) : base_(base), points_(points) {}
@@ -52,7 +52,7 @@ class Surroundings {
   const Column<VertexId, Point>& points_;
 };
 
-/// Frame of the normal, an edge projected to the tangent plane, and the direction normal to both.
+/// Frame of three directions: the normal, an edge projected to the tangent plane, and the direction normal to both.
 struct Frame {
   Vec3 normal, along, across;
   Vec3 to_own(const Vec3& v) const { return {dot(v, normal), dot(v, along), dot(v, across)}; }
@@ -67,7 +67,7 @@ std::optional<Frame> frame_of(const Surroundings& around, VertexId v, VertexId n
   return Frame{normal, unit, cross(normal, unit)};
 }
 
-/// Returns the direction of the start turned with the wall, before the constraints of this wall are applied.
+/// Returns the direction of the start, turned with the wall. The constraints of this wall are not applied yet.
 Vec3 carried_direction(const LayerBase& base, const Surroundings& before, const Surroundings& now, VertexId v, const Vec3& direction) {
   for (const HalfedgeId h : base.topology.outgoing(v)) {
     const VertexId neighbour = base.topology.to(h);
@@ -77,8 +77,8 @@ Vec3 carried_direction(const LayerBase& base, const Surroundings& before, const 
   return base.vertex_normal[v];
 }
 
-/// Returns heights and directions of the start, adapted to the present targets; not valid yet. \post height <= height of the start, where something limited
-/// it
+/// Returns heights and directions of the start, adapted to the present targets. The result is not valid yet. \post where something limited the height of the
+/// start, the height is not larger than that
 Envelope carried_envelope(const LayerBase& base, const EnvelopeOptions& options, const StartingEnvelope& start, const RunContext& context) {
   Envelope envelope = initial_envelope(base, options, context);
   const Surroundings before(base, start.points), now(base, base.wall.points);
@@ -86,7 +86,7 @@ Envelope carried_envelope(const LayerBase& base, const EnvelopeOptions& options,
   const Envelope& was = start.envelope;
   parallel_for(context, base.wall.n_vertices(), [&](std::size_t i) {
     const VertexId v(i);
-    if (envelope.is_collapsed(v)) return;  // fixed, or no direction from which all faces are visible
+    if (envelope.is_collapsed(v)) return;  // the vertex is fixed, or there is no direction from which all faces are visible
     const auto collapse = [&](HeightLimit reason) {
       envelope.height[v] = 0.0;
       envelope.limit[v] = reason;
@@ -104,7 +104,7 @@ Envelope carried_envelope(const LayerBase& base, const EnvelopeOptions& options,
   return envelope;
 }
 
-/// Makes the envelope valid and clear; heights lowered by this grow back where possible.
+/// Makes the envelope valid and clear. Heights lowered by this grow back where possible.
 void make_valid(const LayerBase& base, const EnvelopeOptions& options, Collider& collider, Envelope& envelope, const RunContext& context) {
   const EnvelopeShape before = envelope;
   keep_inside(base, options, envelope, context);
@@ -116,7 +116,7 @@ void make_valid(const LayerBase& base, const EnvelopeOptions& options, Collider&
   seat_on_surfaces(base, options, &collider, envelope, context);
 }
 
-/// Area with full height in the start but not here, as a share of the wall's area, and the vertex where most of it is missing.
+/// Area that has full height in the start but not here, as a fraction of the wall's area, and the vertex at which most of it is missing.
 struct Loss {
   double share = 0.0;
   VertexId worst;

@@ -14,7 +14,7 @@ struct PatchPart {
   std::vector<TriangleId> triangles;
 };
 
-/// Returns the triangles that were added in the plane, by patch in the order of the boundary.
+/// Returns the triangles that were added in the plane, grouped by patch, in the order of the boundary.
 std::vector<PatchPart> parts_in(const AddedPlane& plane, std::size_t n_given, const TriMesh& boundary) {
   std::vector<PatchPart> parts;
   for (std::size_t i = n_given; i < boundary.n_triangles(); ++i) {
@@ -28,10 +28,10 @@ std::vector<PatchPart> parts_in(const AddedPlane& plane, std::size_t n_given, co
   return parts;
 }
 
-/// Border of some triangles, and whether layers of other patches end on them.
+/// Border of some triangles, and a flag that layers of other patches end on them.
 struct PartBorders {
   EndRegion region;
-  std::vector<VertexId> vertices;  ///< vertex of the boundary for each point of the region
+  std::vector<VertexId> vertices;  ///< vertex of the boundary that corresponds to each point of the region
   bool has_rim = false;
 };
 
@@ -67,7 +67,7 @@ void mesh_bare_planes(std::span<const AddedPlane> planes, std::size_t n_given, c
   if (planes.empty()) return;
   const Topology topology(boundary, context);
   Column<TriangleId, std::uint8_t> is_replaced(boundary.n_triangles(), 0);
-  TriMesh made;  // triangles in vertices of the boundary
+  TriMesh made;  // new triangles, with vertices of the boundary
   Column<VertexId, Point> points = boundary.points;
   for (const AddedPlane& plane : planes) {
     Vec3 normal, at;

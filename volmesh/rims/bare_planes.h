@@ -1,4 +1,4 @@
-// Planes that complete the fluid's boundary and on which no layer ends: they get new vertices, from the edges of the body to those of the farfield.
+// Meshes planes that complete the fluid's boundary and on which no layer ends. They get new vertices, from the edges of the body to those of the farfield.
 #pragma once
 
 #include <cstdint>
@@ -14,14 +14,14 @@ namespace sterna::volmesh {
 
 struct PlaneSizes {
   EndOptions ends;
-  std::function<double(const Point&)> size = {};  ///< longest edge, m; may be empty
+  std::function<double(const Point&)> size = {};  ///< longest edge at a location, m; may be empty
 };
 
 /// Triangulates added planes within their borders as close_ends() does around layers: edges grow by `ends_growth` from the borders, up to the edge length of
-/// the plane and to `size`. Planes without layers on which layers end are not changed: close_ends() triangulates them. New vertices and the planes' triangles
-/// are the last of the boundary.
-/// \param n_given number of the user's triangles: the first ones, which stay
-/// \throws as triangulate_end()
+/// the plane and to `size`. Planes on which layers end are not changed here, because close_ends() triangulates them. New vertices and the triangles of the
+/// planes come last in the boundary.
+/// \param n_given number of the user's triangles, which come first and are unchanged
+/// \throws the errors of triangulate_end()
 void mesh_bare_planes(std::span<const AddedPlane> planes, std::size_t n_given, const Column<PatchId, std::uint8_t>& has_layer, const PlaneSizes& sizes,
                       TriMesh& boundary, const RunContext& context);
 

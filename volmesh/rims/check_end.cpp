@@ -8,7 +8,7 @@ namespace {
 
 struct Half {
   std::uint32_t from, to;
-  std::uint32_t id;  ///< 3 * triangle + corner
+  std::uint32_t id;  ///< number of the half-edge, 3 * triangle + corner
   friend bool operator<(const Half& a, const Half& b) { return a.from != b.from ? a.from < b.from : a.to != b.to ? a.to < b.to : a.id < b.id; }
 };
 
@@ -16,7 +16,7 @@ constexpr std::uint32_t k_no_half = ~0u;
 
 std::uint32_t next(std::uint32_t h) { return h % 3 == 2 ? h - 2 : h + 1; }
 
-/// Half-edges by their ends. For a valid triangulation there is only one for each pair of ends.
+/// Half-edges, found by their ends. A valid triangulation has only one for each pair of ends.
 class HalfTable {
  public:
   explicit HalfTable(std::span<const std::array<std::uint32_t, 3>> triangles) {
@@ -53,7 +53,7 @@ class Groups {
   std::vector<std::uint32_t> parent_;
 };
 
-/// Counts components, border loops and Euler number. Corners of triangles that share an edge at a vertex are one fan.
+/// Counts components, border loops and Euler number. The corners at a vertex whose triangles share edges form one fan.
 void count_topology(const std::vector<std::uint32_t>& twin, EndCheck& check) {
   const std::size_t n_halves = twin.size();
   Groups components(n_halves / 3), fans(n_halves);
@@ -72,7 +72,7 @@ void count_topology(const std::vector<std::uint32_t>& twin, EndCheck& check) {
     ++check.n_loops;
     for (std::uint32_t h = first; is_seen[h] == 0;) {
       is_seen[h] = 1;
-      // Turns around the end of h to the outgoing border half-edge in the same fan.
+      // The search turns around the end of h to the outgoing border half-edge in the same fan.
       h = next(h);
       while (twin[h] != k_no_half) h = next(twin[h]);
     }
@@ -98,7 +98,7 @@ EndCheck check_end(std::span<const EndEdge> edges, std::span<const std::array<st
     twin[half.id] = table.find(half.to, half.from);
     if (twin[half.id] == k_no_half) border.push_back({half.from, half.to});
   }
-  // Both are in ascending order.
+  // Both lists are in ascending order.
   std::set_difference(wanted.begin(), wanted.end(), border.begin(), border.end(), std::back_inserter(check.missing));
   std::set_difference(border.begin(), border.end(), wanted.begin(), wanted.end(), std::back_inserter(check.open));
   for (const EndEdge& edge : check.missing)

@@ -1,6 +1,6 @@
-// Steps: tops replace the vertices of the open boundary; chains between adjacent patches are divided again beyond the layer (`cut_chain`); each adjacent
-// patch is triangulated within its loops, which are borders to other patches, chains, and the edges of the open boundary between tops. Of two periodic sides
-// the second gets the translated chains and triangles of the first.
+// Steps: tops replace the vertices of the open boundary; chains between adjacent patches are divided again beyond the layer (`cut_chain`); each adjacent patch
+// is triangulated within its loops. Loops consist of borders to other patches, chains, and the edges of the open boundary between tops. On periodic sides, the
+// second side gets the translated chains and triangles of the first.
 #include "volmesh/rims/close_ends.h"
 
 #include <algorithm>
@@ -18,11 +18,11 @@
 namespace sterna::volmesh {
 namespace {
 
-constexpr double k_least_chain = 1e-6;  ///< share of a chain's length that the layers must leave free
+constexpr double k_least_chain = 1e-6;  ///< fraction of a chain's length that the layers must leave free
 
-using Edge = std::array<VertexId, 2>;  ///< vertices of the result
+using Edge = std::array<VertexId, 2>;  ///< edge between two vertices of the result
 
-/// Position along a polygon by arc length.
+/// Positions along a polygon, measured by arc length.
 class Polyline {
  public:
   explicit Polyline(std::vector<Point> points) : points_(std::move(points)), at_(points_.size(), 0.0) {
@@ -50,7 +50,7 @@ class Polyline {
   std::vector<double> at_;
 };
 
-/// Returns positions between s0 and s1, ends excluded, such that edges have lengths of about size(s).
+/// Returns positions between s0 and s1 (excluded), such that edges have lengths of about size(s).
 template <class Size>
 std::vector<double> spaced(double s0, double s1, const Size& size) {
   constexpr int k_samples_per_edge = 8;
@@ -103,7 +103,7 @@ class Closer {
   }
 
  private:
-  /// A chain whose translated image is another chain; the polygons may have opposite senses.
+  /// A chain that is the translated image of another chain. The polygons may have opposite directions.
   struct ChainImage {
     const EndChain* chain;
     Vec3 translation;
@@ -114,7 +114,7 @@ class Closer {
     return found == domain_.periodic.end() ? nullptr : &*found;
   }
 
-  /// Follows periodic sides backwards as long as the chain is on the second side of a pair.
+  /// Follows periodic pairs from the second to the first side, as long as the chain is on a second side.
   std::optional<ChainImage> image_of(const EndChain& chain) const {
     std::vector<VertexId> at = chain.outer;
     Vec3 way;
@@ -167,7 +167,7 @@ class Closer {
     return v.is_valid() ? v : v = add(top(line), line);
   }
 
-  /// Finds multi-normal fans of opened ridges in adjacent patches: one vertex of the patch border has several growth lines.
+  /// Finds multi-normal fans of opened ridges in adjacent patches. There one vertex of the patch border has several growth lines.
   void find_fan_edges() {
     for (const RimEdge& edge : domain_.rim) {
       const VertexId a = base_.topology.from(edge.halfedge), b = base_.topology.to(edge.halfedge);
@@ -175,7 +175,7 @@ class Closer {
       else if (base_.fan_of(a) || base_.fan_of(b)) lines_of_.emplace(key(base_.ridges->foot[b], base_.ridges->foot[a]), Edge{b, a});
     }
   }
-  /// Returns the edge of the result for an edge of the outer boundary between growth lines of the layer, or elsewhere.
+  /// Returns the edge of the result for an edge of the outer boundary. Its ends may be growth lines of the layer or other vertices.
   Edge edge_between(VertexId a, VertexId b) {
     const VertexId from = domain_.links.line[a], to = domain_.links.line[b];
     if (from.is_valid() && to.is_valid())
@@ -247,12 +247,12 @@ class Closer {
   double height(VertexId line) const { return envelope_.is_collapsed(line) ? 0.0 : envelope_.height[line]; }
   const std::string& name(PatchId patch) const { return domain_.outer.patches[patch].name; }
 
-  /// The part of the boundary to be covered by an adjacent patch, and the vertices of the result for its points.
+  /// The part of the boundary that an adjacent patch will cover, and the vertices of the result for its points.
   struct Region {
     EndRegion region;
     TriMesh original;
     std::vector<VertexId> vertices;
-    bool has_inner = false;  ///< the original has vertices off its border
+    bool has_inner = false;  ///< the original patch has vertices inside its border
   };
 
   std::unique_ptr<Region> region_of(const EndPatch& end) {
@@ -340,13 +340,14 @@ class Closer {
   const EnvelopeShape& envelope_;
   const CloseEndsOptions& options_;
   const RunContext& context_;
-  Topology topology_;                                          ///< topology of domain_.outer
-  Column<VertexId, VertexId> new_of_, top_of_;                 ///< by vertex of domain_.outer without a growth line; by growth line
-  std::map<std::uint64_t, Edge> lines_of_;                     ///< by edge between ridge base vertices, in the sense of the adjacent patch: its growth lines,
-                                                               ///< where there is a multi-normal fan
-  std::vector<std::pair<Edge, PatchId>> fan_edges_;            ///< between growth lines with a common ridge base vertex, in the sense of the adjacent patch
-  std::map<std::uint64_t, std::vector<Edge>> replaced_;        ///< by edge of a chain: the replacing edges, all at its first edge
-  std::map<const EndChain*, std::vector<VertexId>> polygons_;  ///< by chain: the polygon that replaces it
+  Topology topology_;                           ///< topology of domain_.outer
+  Column<VertexId, VertexId> new_of_, top_of_;  ///< vertices of the result: by vertex of domain_.outer without a growth line, and by growth line
+  /// Growth lines of an edge between ridge base vertices at which there is a multi-normal fan, in the direction of the adjacent patch.
+  std::map<std::uint64_t, Edge> lines_of_;
+  std::vector<std::pair<Edge, PatchId>> fan_edges_;  ///< edges between growth lines with a common ridge base vertex, in the direction of the adjacent patch
+  /// Edges that replace a chain, stored at the first edge of the chain; other edges of the chain have empty lists.
+  std::map<std::uint64_t, std::vector<Edge>> replaced_;
+  std::map<const EndChain*, std::vector<VertexId>> polygons_;  ///< polygon that replaces each chain
   struct First {
     std::unique_ptr<Region> made;
     EndTriangles triangles;

@@ -1,4 +1,4 @@
-// The outer boundary around a known layer: adjacent patches, on which the layer ends, are re-meshed around its footprint.
+// The outer boundary around a known layer. Adjacent patches, on which the layer ends, are re-meshed around its footprint.
 #pragma once
 
 #include <functional>
@@ -11,23 +11,24 @@ namespace sterna::volmesh {
 
 /// Outer boundary of the volume for the tetrahedra.
 struct ClosedOuter {
-  TriMesh mesh;                     ///< patches of Domain::outer
-  Column<VertexId, VertexId> line;  ///< per vertex: the wall vertex whose top is at this vertex (the wall vertex itself if collapsed); invalid elsewhere
+  TriMesh mesh;  ///< mesh with the patches of Domain::outer
+  /// For each vertex the wall vertex whose top it is (of a collapsed wall vertex: the wall vertex itself); invalid for other vertices.
+  Column<VertexId, VertexId> line;
 };
 
-/// Returns an outer boundary without vertices in common with a wall.
+/// Returns an outer boundary that has no vertices in common with a wall.
 ClosedOuter unlinked(TriMesh outer);
 
 struct CloseEndsOptions {
   EndOptions ends;
-  std::function<double(const Point&)> size = {};  ///< longest edge, m; may be empty
+  std::function<double(const Point&)> size = {};  ///< longest edge at a location, m; may be empty
 };
 
-/// Closes the outer boundary. Without open boundaries of the wall the outer boundary is returned unchanged. Discs that end on walls are excluded
-/// (rims/slits.h adds them). Of two periodic sides the second gets the translated triangles of the first. Common edges of adjacent patches keep their polygon
-/// beyond the layer, with new vertices on it; adjacent patches whose triangulation has vertices inside keep its edge lengths as an upper limit. Where a
-/// multi-normal fan of an opened ridge lies in an adjacent patch, its tops are part of the footprint.
-/// \pre `base` of domain.wall and its constraints; envelope valid, tops of open-boundary vertices on their surfaces
+/// Closes the outer boundary. Without open boundaries of the wall the outer boundary is returned unchanged. Discs that end on walls are left out (rims/slits.h
+/// adds them). On periodic sides, the second side gets the translated triangles of the first. Common edges of adjacent patches keep their polygon beyond the
+/// layer, with new vertices on it. If the triangulation of an adjacent patch has inner vertices, its edge lengths stay as an upper limit. Where a multi-normal
+/// fan of an opened ridge lies in an adjacent patch, its tops are part of the footprint.
+/// \pre `base` belongs to domain.wall and its constraints; the envelope is valid, and the tops of open-boundary vertices are on their surfaces
 /// \throws Error(self_intersection, envelope_failed) with locations and the patch's name if a footprint does not fit into its patch
 ClosedOuter close_ends(const Domain& domain, const LayerBase& base, const EnvelopeShape& envelope, const CloseEndsOptions& options, const RunContext& context);
 

@@ -21,18 +21,18 @@ std::vector<std::uint32_t> loop_indices(const EndRegion& region) {
   return points;
 }
 
-/// Points of the partner sorted by a key, searched within a tolerance.
+/// Points of the partner, sorted by a key and searched within a tolerance.
 class Partners {
  public:
   Partners(const EndRegion& to, double tolerance) : to_(to), tolerance_(tolerance), order_(loop_indices(to)) {
     std::sort(order_.begin(), order_.end(), [&](std::uint32_t i, std::uint32_t j) { return key(i) != key(j) ? key(i) < key(j) : i < j; });
   }
-  /// Returns the nearest point; k_none if none is within the tolerance.
+  /// Returns the nearest point; k_none if no point is within the tolerance.
   std::uint32_t find(const Point& p) const {
     std::uint32_t best = k_none;
     double least = tolerance_;
     const double along = key(p);
-    // |key(p) - key(q)| is at most sqrt(3) times the distance.
+    // The bound is valid because |key(p) - key(q)| is at most sqrt(3) times the distance.
     auto at = std::lower_bound(order_.begin(), order_.end(), along - 2.0 * tolerance_, [&](std::uint32_t i, double x) { return key(i) < x; });
     for (; at != order_.end() && key(*at) <= along + 2.0 * tolerance_; ++at)
       if (const double d = distance(to_.points[*at], p); d <= least && (best == k_none || d < least)) {
@@ -45,7 +45,7 @@ class Partners {
   static constexpr std::uint32_t k_none = ~0u;
 
  private:
-  /// Projection on a direction in which points of sides along coordinate axes differ.
+  /// Projection to a direction on which the points of sides along coordinate axes differ.
   static double key(const Point& p) { return p.x + 0.7 * p.y + 0.4 * p.z; }
   double key(std::uint32_t i) const { return key(to_.points[i]); }
   const EndRegion& to_;
@@ -53,7 +53,7 @@ class Partners {
   std::vector<std::uint32_t> order_;
 };
 
-/// Returns 1 if the edges have the same sense, -1 if they have the opposite one. \throws Error if they are not the same edges
+/// Returns 1 if the edges of both regions have the same direction, -1 if they have opposite directions. \throws Error if the edges are different
 int sense_of(const EndRegion& from, const EndRegion& to, const std::vector<std::uint32_t>& partner) {
   std::vector<EndEdge> edges(to.edges), same, opposite;
   std::sort(edges.begin(), edges.end());

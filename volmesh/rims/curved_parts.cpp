@@ -1,9 +1,10 @@
-// Problem: a patch that no single plane can represent (a round tunnel, a sphere), or that has sharp edges, with footprints of layers in it.
-//   1. match        points of the region that are vertices of the original; edges of the region that are the original's border; all others are footprints
-//   2. find_pieces  triangles joined across edges that turn by no more than k_crease; each footprint edge belongs to the piece of the triangle nearest to it
-//   3. choose_cut   for each piece with a footprint: the whole piece if its normals allow; otherwise the largest neighbourhood with a projection
-//   4. drop_covered removes the remainder beyond the footprint, under the layer
-//   5. make_part    border of each connected cut, its projection, the sizes allowed by the curvature
+// Splits patches that no single plane can represent (a round tunnel, a sphere), or that have sharp edges, if footprints of layers lie in them.
+//   1. match        finds points of the region that are vertices of the original, and edges of the region that are on the original's border; all other edges
+//   are footprints
+//   2. find_pieces  joins triangles across edges that turn by no more than k_crease; each footprint edge belongs to the piece of the triangle nearest to it
+//   3. choose_cut   cuts from each piece with a footprint: the whole piece if its normals allow it; otherwise the largest neighbourhood that has a projection
+//   4. drop_covered removes the remaining triangles beyond the footprint, under the layer
+//   5. make_part    determines the border of each connected cut, its projection, and the sizes that the curvature allows
 #include "volmesh/rims/curved_parts.h"
 
 #include <algorithm>
@@ -18,20 +19,20 @@
 namespace sterna::volmesh {
 namespace {
 
-/// Cosine of 70 degrees: lengths are up to three times those of the projection.
+/// Cosine of 70 degrees: lengths on the surface are then up to three times those in the projection.
 constexpr double k_steepest = 0.342;
-/// Cosine of 40 degrees: edges of the original with larger turns are edges of the geometry (facets of a tunnel of 16 sides turn by 22).
+/// Cosine of 40 degrees: edges of the original with a larger turn are edges of the geometry. (The facets of a tunnel with 16 sides turn by 22 degrees.)
 constexpr double k_crease = 0.766;
-/// Extent of re-meshing around a footprint: a multiple of its own length around each footprint edge, and rings of the original's triangles around all
-/// triangles touched by this. A larger extent gives smoother sizes; the first extent that has a projection is used.
+/// Extent of re-meshing around a footprint. It is a multiple of the length of each footprint edge around that edge, and a number of rings of the original's
+/// triangles around all triangles within. A larger extent gives smoother sizes. The first extent that has a projection is used.
 struct Reach {
   double lengths;
   int rings;
 };
 constexpr std::array<Reach, 6> k_reaches = {{{3.0, 4}, {3.0, 2}, {1.5, 2}, {1.0, 1}, {0.5, 1}, {0.1, 0}}};
-/// rad, 12 degrees as on model surfaces: an edge of the new mesh spans at most this angle of the surface, or the angle of the original's edges.
+/// Rad, 12 degrees as on model surfaces: an edge of the new mesh spans at most this angle of the surface, or the angle that the original's edges span.
 constexpr double k_curvature_angle = 12.0 * std::numbers::pi / 180.0;
-/// rad: an edge of the original with a smaller turn is flat.
+/// Rad: edges of the original with a smaller turn count as flat.
 constexpr double k_flat_angle = 1e-6;
 constexpr std::uint32_t k_no_part = ~0u;
 
@@ -56,7 +57,7 @@ class CurvedEndSplitter {
     std::vector<EndPart> parts;
     for (const std::vector<TriangleId>& cut : cuts_) parts.push_back(make_part(cut));
     assign_footprints(parts);
-    // Triangles at a replaced border that are surrounded by covered triangles only.
+    // Triangles at a replaced border that are surrounded only by covered triangles give parts without edges. These are removed.
     std::erase_if(parts, [](const EndPart& part) { return part.edges.empty(); });
     return parts;
   }
@@ -83,8 +84,8 @@ class CurvedEndSplitter {
   bool try_reach(std::uint32_t piece, const std::vector<std::uint32_t>& triangles, Reach reach);
   void drop_covered(const std::vector<std::uint32_t>& triangles);
   struct Side {
-    double distance2 = std::numeric_limits<double>::infinity();  ///< from the nearest footprint edge, m^2
-    bool is_covered = false;                                     ///< beyond the footprint edge, under the layer
+    double distance2 = std::numeric_limits<double>::infinity();  ///< m^2, squared distance from the nearest footprint edge
+    bool is_covered = false;                                     ///< the triangle lies beyond the footprint edge, under the layer
   };
   Side side_of(std::uint32_t t) const;
   std::vector<std::vector<TriangleId>> connected(const std::vector<std::uint32_t>& triangles, State state) const;
@@ -102,17 +103,18 @@ class CurvedEndSplitter {
   const RunContext& context_;
   TriangleTree tree_;
   std::size_t n_;
-  std::vector<std::uint32_t> twin_;   ///< per half-edge 3 t + c
-  std::vector<std::uint32_t> point_;  ///< per vertex: the point of the region at its location, later its number among the new points; k_no_part: not needed yet
+  std::vector<std::uint32_t> twin_;  ///< twin of each half-edge 3 t + c
+  /// For each vertex the point of the region at its location, or later its number among the new points; k_no_part: not needed yet.
+  std::vector<std::uint32_t> point_;
   std::vector<std::uint8_t> is_replaced_;  ///< border half-edges of the original that are no edges of the region
-  std::vector<EndEdge> footprints_;        ///< edges of the region that are not the original's
+  std::vector<EndEdge> footprints_;        ///< edges of the region that are not edges of the original
   std::vector<std::uint32_t> footprint_piece_;
-  std::vector<std::uint32_t> footprint_triangle_;  ///< nearest to the middle of the footprint edge
-  std::vector<std::uint32_t> piece_;               ///< per triangle
+  std::vector<std::uint32_t> footprint_triangle_;  ///< triangle nearest to the middle of each footprint edge
+  std::vector<std::uint32_t> piece_;               ///< piece of each triangle
   std::uint32_t n_pieces_ = 0;
-  std::vector<std::uint8_t> is_touched_;       ///< pieces
-  std::vector<State> state_;                   ///< per triangle
-  std::vector<std::vector<TriangleId>> cuts_;  ///< each one part
+  std::vector<std::uint8_t> is_touched_;       ///< flag of each piece
+  std::vector<State> state_;                   ///< state of each triangle
+  std::vector<std::vector<TriangleId>> cuts_;  ///< cuts; each becomes one part
 };
 
 void CurvedEndSplitter::match() {
@@ -258,8 +260,8 @@ void CurvedEndSplitter::choose_cut(std::uint32_t piece) {
   throw Error(std::move(info));
 }
 
-/// Cuts out the triangles that a footprint touches or is near to, triangles with replaced border, and some rings around. Returns true if their connected
-/// groups have projections.
+/// Cuts out the triangles that a footprint touches or is near to, the triangles with a replaced border, and some rings around these. Returns true if their
+/// connected groups have projections.
 bool CurvedEndSplitter::try_reach(std::uint32_t piece, const std::vector<std::uint32_t>& triangles, Reach reach) {
   for (const std::uint32_t t : triangles) {
     state_[t] = State::kept;
@@ -296,7 +298,8 @@ bool CurvedEndSplitter::try_reach(std::uint32_t piece, const std::vector<std::ui
   return true;
 }
 
-/// Returns the position of a triangle relative to the nearest footprint edge of its piece. At a common end of edges the mean of both sides counts.
+/// Returns the position of a triangle relative to the nearest footprint edge of its piece. If the nearest point is a common end of two edges, the mean of both
+/// edges is used.
 CurvedEndSplitter::Side CurvedEndSplitter::side_of(std::uint32_t t) const {
   const Point p = centre(t);
   Side result;
@@ -310,7 +313,7 @@ CurvedEndSplitter::Side CurvedEndSplitter::side_of(std::uint32_t t) const {
     const Point q = share < 1.0 ? a + share * along : b;
     const double d = norm2(p - q);
     if (d > result.distance2) continue;
-    // The surface's direction at the footprint: far around the surface, the direction at the triangle would be meaningless.
+    // The surface's direction at the footprint is used. The direction at the triangle would be meaningless if the triangle is far around the surface.
     const Vec3 side = normalized(cross(normal(footprint_triangle_[e]), along));
     inwards = d < result.distance2 ? side : inwards + side;
     result.distance2 = d;
@@ -322,7 +325,7 @@ CurvedEndSplitter::Side CurvedEndSplitter::side_of(std::uint32_t t) const {
 
 void CurvedEndSplitter::drop_covered(const std::vector<std::uint32_t>& triangles) {
   for (const std::vector<TriangleId>& group : connected(triangles, State::kept)) {
-    // The triangle beside the cut that is nearest to a footprint determines the side of the whole group.
+    // The triangle beside the cut that is nearest to a footprint determines the side for the whole group.
     Side side;
     for (const TriangleId t : group) {
       bool is_beside = false;
@@ -370,7 +373,7 @@ EndPart CurvedEndSplitter::make_part(const std::vector<TriangleId>& cut) {
   return part;
 }
 
-/// Adds the distance of two triangles' centres across an edge, scaled from the angle between them to the allowed angle.
+/// Adds a size at an edge: the distance of the centres of both triangles, scaled from the angle between the triangles to the allowed angle.
 void CurvedEndSplitter::add_curvature_sizes(TriangleId t, EndPart& part) const {
   double size = std::numeric_limits<double>::infinity();
   for (std::uint32_t h = 3 * t.value(); h < 3 * t.value() + 3; ++h) {

@@ -1,4 +1,4 @@
-// Splits a curved adjacent patch into triangles of the original that stay and parts that can each be meshed in one projection.
+// Splits a curved adjacent patch into triangles of the original that are kept, and parts that can each be meshed in one projection.
 #pragma once
 
 #include <vector>
@@ -8,10 +8,10 @@
 
 namespace sterna::volmesh {
 
-/// Splits the region. Triangles that stay go to `result` (their vertices as new points where they are not points of the region); the edges of the parts index
-/// points of both.
-/// \pre region.original is not null.
-/// \throws Error(geometry_failed) for a footprint around which no part has a projection, with the location
+/// Splits the region. Kept triangles are added to `result`; their vertices become new points if they are not points of the region. The edges of the parts refer
+/// to points of both.
+/// \pre region.original is not null
+/// \throws Error(geometry_failed) with the location for a footprint around which no part has a projection
 std::vector<EndPart> split_curved(const EndRegion& region, EndTriangles& result, const RunContext& context);
 
 }  // namespace sterna::volmesh

@@ -12,13 +12,14 @@
 namespace sterna::volmesh {
 namespace {
 
-/// Share of the region's size: points of loops farther off a plane are an error. (The symmetry gate's own limit is 1e-12 of the body length.)
+/// Fraction of the region's size: points of loops farther from a plane are an error. (The symmetry gate itself has a limit of 1e-12 of the body length.)
 constexpr double k_on_plane = 1e-9;
-/// Share of the largest coordinate: an original whose points are nearer than this to one plane is flat. Sixteen roundings of a coordinate.
+/// Fraction of the largest coordinate: an original whose points are nearer than this to one plane is flat. It corresponds to sixteen rounding errors of a
+/// coordinate.
 constexpr double k_flat = 16.0 * 2.220446049250313e-16;
-/// Newton's method on the height: quadratic on smooth surfaces, one step on triangles.
+/// Largest number of steps of Newton's method for the height. Convergence is quadratic on smooth surfaces; on triangles one step is sufficient.
 constexpr int k_max_steps = 12;
-/// Share of the size of the projected piece: tolerance of a height.
+/// Tolerance of a height, as a fraction of the size of the projected piece.
 constexpr double k_height_tolerance = 1e-14;
 
 double largest_coordinate(const Box& box) {
@@ -47,7 +48,7 @@ double median(std::vector<double> values) {
   return *middle;
 }
 
-/// Returns the frame of a plane with this normal through the loops' points (their median height).
+/// Returns the frame of a plane with this normal. The plane passes through the median height of the loops' points.
 EndFrame frame_through(const Vec3& normal, const std::vector<Point>& points) {
   Box box;
   for (const Point& p : points) box.add(p);
@@ -64,8 +65,8 @@ EndFrame frame_through(const Vec3& normal, const std::vector<Point>& points) {
   return end_frame_along(normal, centre + median(std::move(heights)) * normal);
 }
 
-/// Returns the normal of an original that is flat to rounding, exactly along a coordinate axis if the original lies across one; empty if the original is not
-/// flat.
+/// Returns the normal of an original that is flat except for rounding. It is exactly along a coordinate axis if the original is normal to that axis. Empty if
+/// the original is not flat.
 std::optional<Vec3> flat_normal(const TriMesh& original) {
   Vec3 area{};
   for (const TriangleId t : original.triangles.ids()) {
@@ -121,7 +122,7 @@ class ProjectedPiece final : public Surface {
       p = frame_.origin + at.u * frame_.x + at.v * frame_.y + height * frame_.normal;
       normal = surface_.normal(p);
       const double off = dot(surface_.closest(p) - p, normal), steepness = dot(normal, frame_.normal);
-      // Steeper than the projection allows: the surface is not that of the original; the guess cannot be improved.
+      // If the surface is steeper than the projection allows, it is not the surface of the original, and the guess cannot be improved.
       if (std::abs(off) <= tolerance_ || !(steepness > k_least_steepness)) break;
       height += off / steepness;
     }
@@ -135,10 +136,10 @@ class ProjectedPiece final : public Surface {
   std::string kind() const override { return "projection of an end surface"; }
 
  private:
-  /// Cosine of 80 degrees: pieces have angles up to 70.
+  /// Cosine of 80 degrees; pieces have angles of up to 70 degrees.
   static constexpr double k_least_steepness = 0.17;
 
-  /// Returns the height of the original over the location, linear in its triangles.
+  /// Returns the height of the original over the location, which is linear within its triangles.
   double guess(Uv at) const {
     const Point place{at.u, at.v, 0.0};
     const NearestHit hit = flat_.nearest(place);

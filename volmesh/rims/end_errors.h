@@ -1,4 +1,4 @@
-// Errors of adjacent patches: all name the patch and contain its loops as geometry.
+// Errors of adjacent patches. All of them name the patch and contain its loops as a drawing.
 #pragma once
 
 #include <string>
@@ -8,9 +8,9 @@
 
 namespace sterna::volmesh {
 
-/// Returns an error with the loops as geometry; the caller adds locations.
+/// Returns an error with the loops as a drawing. The caller adds locations.
 ErrorInfo end_error(const EndRegion& region, ErrorCode code, std::string problem);
 
-inline constexpr int k_end_digits = 3;  ///< digits of lengths in these errors
+inline constexpr int k_end_digits = 3;  ///< number of digits of lengths in these errors
 
 }  // namespace sterna::volmesh

@@ -1,7 +1,7 @@
-// 1. closed_loops   edges to loops
-// 2. places_of      sizes around edges of the loops, and sizes by curvature
-// 3. mesh_face      of geom/delaunay, in the part's plane
-// 4. prove          edges, senses, Euler number, positive areas
+// 1. closed_loops   joins edges to loops
+// 2. places_of      determines sizes around edges of the loops, and sizes from the curvature
+// 3. mesh_face      meshes with geom/delaunay, in the plane of the part
+// 4. prove          checks edges, directions, Euler number and positive areas
 #include "volmesh/rims/end_part.h"
 
 #include <algorithm>
@@ -17,12 +17,12 @@
 namespace sterna::volmesh {
 namespace {
 
-constexpr double k_size_tolerance = 0.02;  ///< share of a size at the centre of a circular loop, whose points are all at the same distance
+constexpr double k_size_tolerance = 0.02;  ///< fraction of a size: tolerance at the centre of a circular loop, whose points are all at the same distance
 constexpr const char* k_crossing_hint =
     "footprints of layers must not overlap or leave the patch: lower max_thickness of the layers that end here, move the bodies apart, or make the patch "
     "larger";
 
-/// Returns the points that edges use, once each, ascending.
+/// Returns the points that edges use, each once, ascending.
 std::vector<std::uint32_t> used_points(std::span<const EndEdge> edges) {
   std::vector<std::uint32_t> used;
   used.reserve(2 * edges.size());
@@ -32,7 +32,7 @@ std::vector<std::uint32_t> used_points(std::span<const EndEdge> edges) {
   return used;
 }
 
-/// Rejects different points at the same location: the triangulation would join them.
+/// Rejects different points at the same location, because the triangulation would merge them.
 void check_places(const EndRegion& region, const EndTriangles& result, std::span<const EndEdge> edges) {
   std::vector<std::uint32_t> used = used_points(edges);
   const auto at = [&](std::uint32_t i) -> const Point& { return point_of(region, result, i); };
@@ -64,14 +64,14 @@ std::vector<SizeSite> places_of(const EndRegion& region, const EndTriangles& res
     places[k].point = point_of(region, result, used[k]);
   }
   places.insert(places.end(), part.curvature_sizes.begin(), part.curvature_sizes.end());
-  // The result within the tolerance depends on the order of the sites, so they are sorted independently of the numbering of points.
+  // Within the tolerance the result depends on the order of the sites. Therefore they are sorted independently of the numbers of the points.
   std::ranges::sort(places, {}, [](const SizeSite& s) { return std::tuple(s.point.x, s.point.y, s.point.z, s.size); });
   return places;
 }
 
 struct PartBorder {
   delaunay::FaceBorder border;
-  std::vector<std::uint32_t> point;  ///< for each vertex of all loops in order
+  std::vector<std::uint32_t> point;  ///< point of each vertex, for all loops in order
 };
 
 PartBorder border_of(const EndRegion& region, const EndTriangles& result, const EndPart& part) {
@@ -153,7 +153,7 @@ void check_closed(const EndRegion& region, const EndTriangles& result, std::span
 }
 
 std::vector<std::vector<std::uint32_t>> closed_loops(std::span<const EndEdge> edges) {
-  // Edges by their start; for each start the next edge that is not taken.
+  // Edges are sorted by their start. For each start the next edge that is not used yet is taken.
   const std::vector<std::uint32_t> used = used_points(edges);
   const auto number = [&](std::uint32_t i) { return static_cast<std::size_t>(std::lower_bound(used.begin(), used.end(), i) - used.begin()); };
   std::vector<std::size_t> first(used.size() + 1, 0);

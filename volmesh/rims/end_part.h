@@ -1,4 +1,4 @@
-// One part of an adjacent patch that is meshed in one plane: its loops, from edges to triangles.
+// One part of an adjacent patch that is meshed in one plane, from its edges through loops to triangles.
 #pragma once
 
 #include <array>
@@ -16,25 +16,25 @@ namespace sterna::volmesh {
 
 using EndEdge = std::array<std::uint32_t, 2>;
 
-/// Part of a region. Edges index EndRegion::points, then EndTriangles::new_points.
+/// Part of a region. Its edges refer to EndRegion::points, followed by EndTriangles::new_points.
 struct EndPart {
   std::vector<EndEdge> edges;
   EndFrame frame;
-  std::vector<TriangleId> triangles;      ///< triangles of the original that cover the part; empty: a plane
+  std::vector<TriangleId> triangles;      ///< triangles of the original that cover the part; empty: the part is plane
   std::vector<SizeSite> curvature_sizes;  ///< sizes limited by the surface's curvature
 };
 
-/// Returns a point of the region or a new point of the result.
+/// Returns point i: a point of the region, or a new point of the result.
 const Point& point_of(const EndRegion& region, const EndTriangles& result, std::uint32_t i);
 
-/// \throws `info` with the locations where the numbers of ending and beginning edges differ
+/// \throws `info` with the locations at which the numbers of ending and beginning edges differ
 void check_closed(const EndRegion& region, const EndTriangles& result, std::span<const EndEdge> edges, ErrorInfo info);
 
-/// Joins edges to closed loops of points; at vertices shared by several loops any continuation is valid.
-/// \pre check_closed
+/// Joins edges to closed loops of points. At points that several loops share, any continuation is valid.
+/// \pre check_closed has passed
 std::vector<std::vector<std::uint32_t>> closed_loops(std::span<const EndEdge> edges);
 
-/// Meshes the part and proves the result (end_surface.h); adds new points and triangles to the result.
+/// Meshes the part and checks the result (end_surface.h). Adds new points and triangles to the result.
 void mesh_part(const EndRegion& region, const EndPart& part, const EndOptions& options, EndTriangles& result, const RunContext& context);
 
 }  // namespace sterna::volmesh

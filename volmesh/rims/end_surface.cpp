@@ -30,7 +30,7 @@ void check_input(const EndRegion& region) {
   if (info.n_places > 0) throw Error(std::move(info));
 }
 
-/// Proves that parts and kept triangles together have the region's border and no other.
+/// Checks that the parts and the kept triangles together have exactly the border of the region.
 void prove_whole(const EndRegion& region, const EndTriangles& result) {
   const EndCheck check = check_end(region.edges, result.triangles);
   if (check.missing.empty() && check.open.empty() && check.repeated.empty()) return;
@@ -65,7 +65,7 @@ EndTriangles triangulate_end(const EndRegion& region, const EndOptions& options,
 
 std::function<double(const Point&)> limited_size(const EndRegion& region, double edge, double size_growth, std::function<double(const Point&)> size) {
   if (is_automatic(edge)) return size;
-  std::vector<std::pair<Point, double>> coarse;  // middles of longer edges of the loops
+  std::vector<std::pair<Point, double>> coarse;  // middles of loop edges that are longer than the limit
   for (const EndEdge& of_loop : region.edges) {
     const Point &a = region.points[of_loop[0]], &b = region.points[of_loop[1]];
     if (distance(a, b) > edge) coarse.emplace_back(0.5 * (a + b), distance(a, b));

@@ -13,17 +13,17 @@
 namespace sterna::volmesh {
 namespace {
 
-/// One side of a disc (baffle), upstream, between its outlines and free edges.
+/// One side of a disc (baffle), the upstream one, between its outlines and free edges.
 struct Sheet {
-  std::vector<VertexId> lines;  ///< growth lines of the wall under the first points
-  std::size_t n_rim = 0;        ///< number of the following points that are on free edges
+  std::vector<VertexId> lines;  ///< growth lines of the wall below the first points
+  std::size_t n_rim = 0;        ///< number of the next points, which are on free edges
   std::vector<Point> points;
-  std::vector<std::array<std::uint32_t, 3>> triangles;  ///< normals upstream
+  std::vector<std::array<std::uint32_t, 3>> triangles;  ///< triangles with normals upstream
   bool is_on_rim(std::uint32_t i) const { return i >= lines.size() && i < lines.size() + n_rim; }
 };
 
-/// Splits edges between vertices of free edges. Both sides share these vertices, so no inner edge may join two of them: such edges get a vertex in their
-/// middle.
+/// Splits edges between two vertices of free edges. Both sides of the disc share these vertices, so no inner edge may join two of them. Such edges get a vertex
+/// in their middle.
 void split_chords(Sheet& sheet) {
   for (bool has_split = true; has_split;) {
     has_split = false;
@@ -62,12 +62,12 @@ Sheet make_sheet(const TriMesh& wall, const DiscSlit& slit, const ActuatorDisc& 
   region.name = disc.name;
   Sheet sheet;
   const auto from = [&](HalfedgeId h) { return wall.triangles[triangle_of(h)][static_cast<std::size_t>(corner_of(h))]; };
-  for (const auto& [h, twin] : slit.outline) sheet.lines.push_back(from(h));  // closed polygons: each vertex once
+  for (const auto& [h, twin] : slit.outline) sheet.lines.push_back(from(h));  // the polygons are closed, so each vertex occurs once
   std::ranges::sort(sheet.lines);
   const auto number = [&](VertexId v) { return static_cast<std::uint32_t>(std::ranges::lower_bound(sheet.lines, v) - sheet.lines.begin()); };
   for (const VertexId v : sheet.lines) region.points.push_back(point_of(v));
   for (const auto& [h, twin] : slit.outline) region.edges.push_back({number(from(twin)), number(from(h))});
-  // Counter-clockwise about the axis is clockwise seen from upstream.
+  // Counter-clockwise about the axis is clockwise as seen from upstream.
   const auto add_rim = [&](double radius, bool is_outer) {
     const auto first = static_cast<std::uint32_t>(region.points.size());
     const std::vector<Point> polygon = rim_polygon(disc, radius, wall, options.size_growth, context);
@@ -91,7 +91,7 @@ Sheet make_sheet(const TriMesh& wall, const DiscSlit& slit, const ActuatorDisc& 
   return sheet;
 }
 
-/// Requires that the baffle intersects walls in its outlines only.
+/// Checks that the baffle intersects walls only in its outlines.
 void require_sheet_clear(const ActuatorDisc& disc, const Sheet& sheet, const Domain& domain, const RunContext& context) {
   std::vector<Vec3> points(domain.wall.points.begin(), domain.wall.points.end());
   const auto n_wall = static_cast<std::uint32_t>(points.size());
@@ -121,7 +121,7 @@ void require_sheet_clear(const ActuatorDisc& disc, const Sheet& sheet, const Dom
   require_clear(disc, points, triangles, sheet.triangles.size(), patch_of, " away from the walls with layers that cross the disc", context);
 }
 
-/// Constrains the outlines, and marks the adjacent vertices that stay on their side of the plane.
+/// Constrains the vertices of the outlines, and marks the vertices beside them that stay on their side of the plane.
 class Holder {
  public:
   explicit Holder(Domain& domain) : domain_(domain), reach_(domain.wall) {
@@ -141,7 +141,7 @@ class Holder {
   }
 
  private:
-  /// Marks vertices on one side from which a layer can reach the outline along the wall.
+  /// Marks vertices on one side of the plane from which a layer can reach the outline along the wall.
   void mark_near(const DiscPlane& plane, const std::vector<VertexId>& from, std::int32_t surface, double side) {
     const auto is_on_side = [&](VertexId v) { return side * plane.height(domain_.wall.points[v]) > 0.0; };
     reach_.mark(from, surface, is_on_side, domain_.constraints.near);
@@ -151,13 +151,13 @@ class Holder {
   WallReach reach_;
 };
 
-/// Returns the half-edges of the wall on the edges of the outline.
+/// Returns the half-edges of the wall that lie on the edges of the outline.
 std::vector<std::array<HalfedgeId, 2>> outline_on_wall(const TriMesh& boundary, const CutDisc& cut, const Domain& domain) {
   std::vector<std::array<VertexId, 2>> edges = cut.outline;
   std::ranges::sort(edges);
   std::vector<std::array<HalfedgeId, 2>> outline(edges.size());
   for (const TriangleId t : domain.wall.triangles.ids()) {
-    const TriangleVertices& v = boundary.triangles[domain.wall2surface[t]];  // corner on corner
+    const TriangleVertices& v = boundary.triangles[domain.wall2surface[t]];  // corners of both triangles correspond one to one
     for (std::size_t k = 0; k < 3; ++k) {
       const VertexId from = v[k], to = v[(k + 1) % 3];
       for (const std::size_t side : {0u, 1u}) {
@@ -187,7 +187,7 @@ void find_behind(const DiscPlane& plane, const std::vector<VertexId>& vertices, 
   }
 }
 
-/// Returns the position of an outline's vertex among all outline vertices.
+/// Returns the position of a vertex of an outline among the vertices of all outlines.
 std::size_t second_of(const Domain& domain, VertexId v) {
   return static_cast<std::size_t>(std::ranges::lower_bound(domain.slit_vertices, v) - domain.slit_vertices.begin());
 }
@@ -245,7 +245,7 @@ void close_slits(const Domain& domain, const LayerBase& base, const EnvelopeShap
       outer.line.push_back(line);
       return outer.mesh.points.push_back(Point(sheet.points[i]));
     };
-    std::vector<std::array<VertexId, 2>> sides;  // per point: upstream, downstream
+    std::vector<std::array<VertexId, 2>> sides;  // for each point its vertices on the upstream and the downstream side
     for (std::size_t i = 0; i < sheet.points.size(); ++i) {
       if (i < sheet.lines.size()) {
         const VertexId v = sheet.lines[i];

@@ -34,7 +34,7 @@
 namespace sterna::volmesh {
 namespace {
 
-constexpr std::size_t k_named_patches = 3;  ///< patches of a cavity named in messages
+constexpr std::size_t k_named_patches = 3;  ///< largest number of patches of a cavity that a message names
 
 bool opens_ridges(const MeshCase& options) {
   return options.ridges.is_on() || std::ranges::any_of(options.patches, [](const PatchRule& rule) { return rule.open_ridges == "always"; });
@@ -49,7 +49,7 @@ void require_no_others(const MeshCase& options) {
   if (!options.discs.empty()) refuse("wake sheets cannot be combined with actuator discs", "leave the wakes or the discs out");
 }
 
-/// Checks rules for exactly these patches; a rule for "*" is meant for other patches.
+/// Checks the rules for exactly these patches. A rule for "*" is ignored, because it is meant for other patches.
 void require_no_layers_on_periodic_sides(const MeshCase& options) {
   for (const PatchRule& rule : options.patches)
     for (const PeriodicNames& pair : options.periodic)
@@ -92,7 +92,7 @@ std::vector<ActuatorDisc> free_discs(const std::vector<ActuatorDisc>& discs, con
 
 namespace {
 
-/// Least first height of all walls, m.
+/// Returns the smallest first height of all walls in metres.
 double least_first_height(const MeshCase& options) {
   double least = options.envelope.first_height;
   for (const PatchRule& rule : options.patches)
@@ -100,8 +100,9 @@ double least_first_height(const MeshCase& options) {
   return least;
 }
 
-/// Gives the walls' layer to inflow and outflow patches beyond outer edges of walls (a nozzle at the end of its nacelle), unless a rule sets layers = 0 for
-/// them. No layer can end there, and cells around layer boundary vertices without a layer made an airliner's flow diverge (docs/measurements/solvers.md).
+/// Gives the layer of the walls to inflow and outflow patches beyond outer edges of walls (such as a nozzle at the end of its nacelle), unless a rule sets
+/// layers = 0 for them. No layer can end at such edges. Cells around layer boundary vertices without a layer made the flow of an airliner diverge
+/// (docs/measurements/solvers.md).
 void go_on_beyond_open_rims(const TriMesh& boundary, const MeshCase& options, const RunContext& context, Column<PatchId, std::uint8_t>& has_layer) {
   for (const PatchId p : flow_patches_beyond_open_rims(boundary, has_layer, context)) {
     const Patch& patch = boundary.patches[p];
@@ -117,7 +118,7 @@ void go_on_beyond_open_rims(const TriMesh& boundary, const MeshCase& options, co
 Column<PatchId, std::uint8_t> patches_with_layers(const TriMesh& boundary, const MeshCase& options, const RunContext& context) {
   const Column<PatchId, PatchLayers> layers = layers_of_patches(boundary.patches, options.envelope, options.patches);
   Column<PatchId, std::uint8_t> has_layer(boundary.patches.size(), 0);
-  // Files of triangles contain no kinds: all their patches are walls, except periodic sides.
+  // Files of triangles contain no patch kinds, so all their patches are walls, except periodic sides.
   const auto is_periodic = [&](const std::string& name) {
     return std::ranges::any_of(options.periodic, [&](const PeriodicNames& pair) { return pair.first == name || pair.second == name; });
   };
@@ -126,7 +127,7 @@ Column<PatchId, std::uint8_t> patches_with_layers(const TriMesh& boundary, const
   return has_layer;
 }
 
-/// Checks a boundary without layers: inviscid flow if walls are meant to have none. \throws if there is no wall for the requested layers
+/// Checks a boundary without layers. It is meant for inviscid flow, in which walls have no layers. \throws if layers are requested but there is no wall
 void require_no_layers(const TriMesh& boundary, const MeshCase& options, const RunContext& context) {
   const bool has_walls = std::ranges::any_of(boundary.patches, [](const Patch& patch) { return patch.kind == PatchKind::wall; });
   if (options.envelope.layers > 0 && !has_walls)
@@ -139,7 +140,7 @@ void require_no_layers(const TriMesh& boundary, const MeshCase& options, const R
   else context.warn(text + "; layers = " + std::to_string(options.envelope.layers) + " has no effect, because the rules of all patches set layers = 0");
 }
 
-/// The closed boundary of the fluid with the kinds of its patches; added planes on which no layers end have separate vertices.
+/// The closed boundary of the fluid with the kinds of its patches. Added planes on which no layers end have separate vertices.
 struct WholeBoundary {
   TriMesh mesh;
   Column<PatchId, std::uint8_t> has_layer;
@@ -155,7 +156,7 @@ WholeBoundary completed(const TriMesh& given, const MeshCase& options, const Run
   return whole;
 }
 
-/// Applies user-specified edge lengths of planes to the adjacent patches among them.
+/// Applies the user's edge lengths of planes to the adjacent patches in these planes.
 void limit_edges(std::span<const AddedPlane> planes, Domain& domain) {
   for (EndPatch& end : domain.ends)
     for (const TriangleId t : domain.outer.triangles.ids()) {
@@ -179,11 +180,11 @@ void warn_of_cavities(const Domain& domain, const RunContext& context) {
   if (!domain.cavities.empty()) context.warn("the fluid consists of " + std::to_string(domain.cavities.size() + 1) + " regions that are not connected");
 }
 
-/// \param given_ends as given by the user, for a warning if no patch is triangulated with them; null: no warning
+/// \param given_ends options as the user gave them, for a warning if no patch is triangulated with them; null: no warning
 Domain make_domain(const TriMesh& surface, const MeshCase& options, const RunContext& context, std::span<const VertexId> closed, const EndOptions* given_ends) {
   const StageTimer timer(context, "domain");
   TriMesh given = surface;
-  std::vector<PatchRule> of_given;  // the other rules are for added patches
+  std::vector<PatchRule> of_given;  // rules for patches of the user; the other rules are for added patches
   std::ranges::copy_if(options.patches, std::back_inserter(of_given), [&](const PatchRule& rule) {
     return std::ranges::any_of(given.patches, [&](const Patch& patch) { return matches_glob(patch.name, rule.names); });
   });
@@ -192,7 +193,7 @@ Domain make_domain(const TriMesh& surface, const MeshCase& options, const RunCon
   TriMesh& boundary = whole.mesh;
   Column<PatchId, std::uint8_t>& has_layer = whole.has_layer;
   require_used_requests(boundary.patches, has_layer, options, context);
-  if (closed.empty()) warn_of_sources_outside(boundary, options, context);  // otherwise the warning was already given
+  if (closed.empty()) warn_of_sources_outside(boundary, options, context);  // in repeated rounds the warning was already given
   NeedleSplits needles = split_needles(boundary, has_layer, options.needles, context);
   SheetedBoundary sheeted;
   if (!options.wakes.empty()) {
@@ -222,7 +223,7 @@ Domain make_domain(const TriMesh& surface, const MeshCase& options, const RunCon
   std::vector<std::size_t> on_walls;
   for (const CutDisc& cut : cuts.discs) on_walls.push_back(cut.disc);
   domain.outer = with_discs(std::move(domain.outer), domain.wall, free_discs(options.discs, on_walls), options.size.size_growth, context);
-  if (!domain.links.empty()) {  // these discs share nothing with the wall
+  if (!domain.links.empty()) {  // free discs share no vertices with the wall
     domain.links.line.resize(domain.outer.n_vertices());
     domain.links.surface.resize(domain.outer.n_triangles(), -1);
   }

@@ -1,4 +1,4 @@
-// Layer domain: the wall that carries layers and the outer boundary, with the common data of all steps. Surface -> complete -> cut -> split.
+// Layer domain: the wall that carries layers, and the outer boundary, with the data that all steps use. The surface is completed, cut, and split into both.
 #pragma once
 
 #include <cstddef>
@@ -15,33 +15,33 @@
 
 namespace sterna::volmesh {
 
-/// Returns the options of the requested family member, with the layers solved for.
+/// Returns the options of the requested family member. The dependent layer parameter is computed.
 /// \throws Error(bad_argument) for missing required options and for inconsistent options; Error(empty_surface)
 MeshCase validated(const TriMesh& wall, MeshCase options, const RunContext& context);
 
-/// Builds the fluid's boundary: completed, its sliver triangles split, cut by discs, made periodic, split into walls and the rest, its ridges opened.
-/// \p closed: vertices of the wall that get no multi-normal fan
-/// \pre options validated
+/// Builds the fluid's boundary. It is completed, its sliver triangles are split, it is cut by discs and made periodic, and it is split into walls with layers
+/// and the other patches. Then the ridges of the wall are opened. \p closed vertices of the wall that get no multi-normal fan
+/// \pre the options were returned by validated()
 Domain domain_around(const TriMesh& surface, const MeshCase& options, const RunContext& context, std::span<const VertexId> closed = {});
 
 /// Returns the walls with layers, and the layer requirements on them.
 LayerBase base_of(const Domain& domain, const MeshCase& options, const RunContext& context);
 
-/// Returns the edge lengths that the user's sources request on re-meshed patches; empty if no source does. `options` must outlive the result.
+/// Returns the edge lengths that the user's sources require on re-meshed patches; empty if no source affects them. `options` must outlive the result.
 std::function<double(const Point&)> end_sizes(const MeshCase& options);
 
-/// Returns the discs that end on no wall. \p on_walls: indices of the others
+/// Returns the discs that end on no wall. \p on_walls numbers of the other discs
 std::vector<ActuatorDisc> free_discs(const std::vector<ActuatorDisc>& discs, const std::vector<std::size_t>& on_walls);
 
-/// Wall and outer boundary with the common data of all steps.
+/// Wall and outer boundary, with the data that all steps use.
 struct MeshingSite {
-  /// Builds the layer domain. \throws as volume_mesh() for errors that no step can repair
+  /// Builds the layer domain. \throws the errors of volume_mesh() that no step can repair
   MeshingSite(const TriMesh& surface, const MeshCase& user_options, const RunContext& context, std::span<const VertexId> closed = {});
   MeshingSite(const MeshingSite&) = delete;
   MeshingSite& operator=(const MeshingSite&) = delete;
 
-  MeshCase options;                ///< including the feature angle
-  EnvelopeOptions given_envelope;  ///< without the feature angle, unless the user gave it
+  MeshCase options;                ///< options, including the feature angle
+  EnvelopeOptions given_envelope;  ///< envelope options without the feature angle, unless the user gave it
   Domain domain;
   LayerBase base;
   Collider collider;

@@ -11,7 +11,7 @@ namespace sterna::volmesh {
 namespace {
 
 constexpr std::size_t k_triangles_drawn = 1000;
-/// TetGen counts with int and needs space for the points that it adds.
+/// TetGen uses int for counts, and needs space for the points that it adds.
 constexpr std::size_t k_count_limit = std::size_t{1} << 29;
 
 using Offenders = std::vector<std::size_t>;
@@ -101,7 +101,7 @@ void check_no_twin_points(const TetraBoundary& boundary, const RunContext& conte
   std::iota(order.begin(), order.end(), 0u);
   const auto key = [&](std::uint32_t v) {
     const Vec3& p = boundary.points[v];
-    return std::array{p.x + 0.0, p.y + 0.0, p.z + 0.0};  // + 0.0: -0 and 0 are the same location
+    return std::array{p.x + 0.0, p.y + 0.0, p.z + 0.0};  // adding 0.0 converts -0 to 0, which is the same location
   };
   parallel_sort(context, order, [&](std::uint32_t a, std::uint32_t b) {
     const auto ka = key(a), kb = key(b);
@@ -116,7 +116,7 @@ void check_no_twin_points(const TetraBoundary& boundary, const RunContext& conte
                    boundary, twins, "coincides with another point");
 }
 
-/// Returns true if the points are collinear: if and only if the projections on all three coordinate planes are.
+/// Returns true if the points are collinear. They are if and only if their projections to all three coordinate planes are collinear.
 bool is_degenerate(const Vec3& a, const Vec3& b, const Vec3& c) {
   return orient2d({a.x, a.y}, {b.x, b.y}, {c.x, c.y}) == 0 && orient2d({a.y, a.z}, {b.y, b.z}, {c.y, c.z}) == 0 &&
          orient2d({a.z, a.x}, {b.z, b.x}, {c.z, c.x}) == 0;
@@ -133,8 +133,8 @@ void check_triangles(const TetraBoundary& boundary, const RunContext& context) {
 }
 
 struct DirectedEdge {
-  std::uint64_t vertices;  ///< lower vertex << 32 | higher one
-  std::uint64_t use;       ///< triangle << 1 | runs from high to low
+  std::uint64_t vertices;  ///< lower vertex << 32 | higher vertex
+  std::uint64_t use;       ///< triangle << 1 | 1 if the edge runs from the high to the low vertex
 };
 
 void check_edges(const TetraBoundary& boundary, const RunContext& context) {

@@ -13,9 +13,9 @@
 namespace sterna::volmesh {
 namespace {
 
-constexpr double k_inside_winding = 0.5;  ///< limit between outside and inside: computed winding numbers are 0 or 1 within 0.05
+constexpr double k_inside_winding = 0.5;  ///< limit between outside and inside; computed winding numbers are 0 or 1 within 0.05
 
-/// Returns the component number of each vertex; components in order of their first triangle.
+/// Returns the component number of each vertex. Components are in the order of their first triangles.
 std::vector<std::int32_t> number_components(std::size_t n_points, std::span<const std::array<std::uint32_t, 3>> triangles, std::size_t& n_components) {
   DisjointSets components(n_points);
   for (const auto& t : triangles) {
@@ -32,8 +32,8 @@ std::vector<std::int32_t> number_components(std::size_t n_points, std::span<cons
   return number;
 }
 
-/// Returns the volume that each component encloses, m^3: negative if its normals point inwards. Computed relative to a point of the component, so that a
-/// distant small body keeps its digits.
+/// Returns the volume that each component encloses in m^3. It is negative if the normals of the component point inwards. It is computed relative to a point of
+/// the component, so that it is accurate for a small distant body.
 std::vector<double> enclosed_volumes(const TetraBoundary& boundary, const std::vector<std::int32_t>& component,
                                      const std::vector<std::uint32_t>& first_vertex) {
   std::vector<CompensatedSum> sums(first_vertex.size());
@@ -46,7 +46,7 @@ std::vector<double> enclosed_volumes(const TetraBoundary& boundary, const std::v
   return volumes;
 }
 
-/// A region's outer surface, for inside tests.
+/// Outer surface of a region, used for inside tests.
 class Shell {
  public:
   Shell(const TetraBoundary& boundary, const std::vector<std::int32_t>& component, std::int32_t number, const RunContext& context)
@@ -64,7 +64,8 @@ class Shell {
   TriangleTree tree_;
 };
 
-/// Regions of the components of a closed boundary, in order of the components that enclose them; -1 for components of sheets alone, which enclose nothing.
+/// Regions of the components of a closed boundary, in the order of the components that enclose them. Components that consist of sheets only enclose nothing and
+/// have the number -1.
 class Regions {
  public:
   Regions(const TetraBoundary& boundary, const std::vector<std::int32_t>& component, std::size_t n_components, const std::vector<std::uint8_t>& is_sheet,
@@ -106,7 +107,7 @@ class Regions {
   const TetraBoundary& boundary_;
   std::vector<double> volumes_;
   std::vector<std::int32_t> of_component_;
-  std::vector<std::size_t> outer_;  ///< for each region: the component that encloses it
+  std::vector<std::size_t> outer_;  ///< component that encloses each region
   std::vector<Shell> shells_;
 };
 
@@ -125,7 +126,7 @@ BoundaryParts parts_without_sheets(const TetraBoundary& boundary, const RunConte
 
 BoundaryParts find_parts(const TetraBoundary& boundary, const JoinedBoundary* joined, const RunContext& context) {
   if (!joined) return parts_without_sheets(boundary, context);
-  // With both sides of sheets, each component is the boundary of one region, or a part of it.
+  // Both sides of sheets are included here. Each component is then the boundary of one region, or a part of that boundary.
   std::size_t n_components = 0, n_connected = 0;
   const std::vector<std::int32_t> component = number_components(boundary.points.size(), boundary.triangles, n_components);
   const std::vector<std::int32_t> connected = number_components(joined->points.size(), joined->triangles(), n_connected);

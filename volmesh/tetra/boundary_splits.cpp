@@ -15,9 +15,9 @@ namespace {
 using Triangle = std::array<std::uint32_t, 3>;
 using Weights = std::array<double, 3>;
 
-/// Tolerance on the sum of the relative areas of a triangle's parts, which is 1 within rounding; there are at most thousands of parts.
+/// Tolerance for the sum of the relative areas of a triangle's parts, which is 1 except for rounding. There are at most thousands of parts.
 constexpr double k_area_tolerance = 1e-9;
-/// Weights nearer to 0 than this are treated as on an edge or corner: a point there has no triangles of positive area on both sides.
+/// A weight nearer to 0 than this counts as zero: the point is on an edge or corner, because it has no triangles of positive area on both sides.
 constexpr double k_least_weight = 1e-12;
 
 class Finder {
@@ -52,7 +52,7 @@ class Finder {
     throw Error(std::move(error));
   }
 
-  /// Finds the origin of each point: a point that two triangles use lies on their common edge; a point of a single triangle lies inside it.
+  /// Finds the origin of each point. A point that two triangles use lies on their common edge. A point of a single triangle lies inside the triangle.
   void find_origins() {
     constexpr std::uint32_t k_none = ~std::uint32_t{0};
     std::vector<std::array<std::uint32_t, 2>> users(splits_.points.size(), {k_none, k_none});
@@ -103,7 +103,7 @@ class Finder {
     return weights;
   }
 
-  /// Returns the barycentric coordinates of a node in a triangle that has it as a corner, on an edge, or inside.
+  /// Returns the barycentric coordinates of a node in a triangle. The node is a corner of the triangle, lies on one of its edges, or inside it.
   Weights weights_in(std::uint32_t triangle, std::uint32_t node) const {
     const Triangle& t = boundary_.triangles[triangle];
     Weights weights{};
@@ -115,14 +115,14 @@ class Finder {
     }
     const BoundarySplits::Origin& origin = splits_.origins[node - n_old_];
     if (origin.triangle == triangle) return origin.weights;
-    for (std::size_t k = 0; k < 3; ++k) {  // on a common edge, as found by find_origins()
+    for (std::size_t k = 0; k < 3; ++k) {  // the node is on a common edge, as found by find_origins()
       const auto at = static_cast<std::size_t>(std::ranges::find(t, boundary_.triangles[origin.triangle][k]) - t.begin());
       if (at < 3) weights[at] = origin.weights[k];
     }
     return weights;
   }
 
-  /// Verifies and orients the parts [begin, end) of a triangle.
+  /// Checks and orients the parts [begin, end) of a triangle.
   void tile(std::uint32_t triangle, std::size_t begin, std::size_t end) {
     double sum = 0.0;
     for (std::size_t i = begin; i < end; ++i) {

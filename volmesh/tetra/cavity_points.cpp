@@ -1,11 +1,11 @@
 // One point in each solid region of a wall.
 //
-// Problem: TetGen removes a cavity from a point inside it. Bodies may be several, hollow, nested, or extremely thin.
-// Steps: shells (components over edges). For each shell, a point behind one of its largest triangles: a line along a coordinate axis through the triangle, all
-// crossings of the line with the wall, the middle of the segment from the triangle to the next crossing (`point_behind`). The winding number of the point about
-// every shell is counted on that line with exact predicates (`windings`): the sum must be 1, otherwise the region is no solid. The point is centred along the
-// axes in turn, and among the points of all triangles the one with the largest clearance is used. Points inside the same shells are in the same region (shells
-// do not intersect), so one point is kept for each set of shells.
+// TetGen removes a cavity if it gets a point inside it. There may be several bodies, and bodies may be hollow, nested or extremely thin. Steps: Find shells,
+// which are components connected across edges. For each shell, find a point behind one of its largest triangles (`point_behind`). For this, all crossings of a
+// line along a coordinate axis through the triangle with the wall are computed; the point is the middle of the segment from the triangle to the next crossing.
+// Count the winding number of the point about every shell on that line, with exact predicates (`windings`). The sum must be 1, otherwise the region is not
+// solid. Centre the point along the axes in turn. Of the points of all triangles, use the one with the largest clearance. Points inside the same shells are in
+// the same region (because shells do not intersect), so one point is kept for each set of shells.
 
 #include <algorithm>
 #include <array>
@@ -25,26 +25,26 @@
 namespace sterna::volmesh {
 namespace {
 
-constexpr std::size_t k_triangles_tried = 8;  ///< per shell, the largest
-/// Weights of the point where a triangle is pierced; uneven, so that lines miss the edges and vertices of regular meshes. If the line meets an edge, the next
-/// set is used.
+constexpr std::size_t k_triangles_tried = 8;  ///< number of triangles that are tried for each shell, largest first
+/// Weights of the point at which a triangle is pierced. They are uneven, so that lines do not hit the edges and vertices of regular meshes. If a line hits an
+/// edge, the next set is used.
 constexpr std::array<std::array<double, 3>, 5> k_weights = {
     {{0.43, 0.31, 0.26}, {0.2713, 0.4127, 0.316}, {0.361, 0.2117, 0.4273}, {0.5519, 0.1709, 0.2772}, {0.1373, 0.2939, 0.5688}}};
 
 struct Crossing {
   TriangleId triangle;
-  double at = 0.0;  ///< coordinate along the axis, rounded; used only for finding segments
-  int sense = 0;    ///< +1: the triangle's normal points along the axis
+  double at = 0.0;  ///< rounded coordinate along the axis; it is used only to find segments
+  int sense = 0;    ///< +1 if the triangle's normal points along the axis, else -1
 };
 
-/// Set of shells around a point with the winding number about each, ascending; shells with winding number 0 are left out.
+/// The shells around a point with the winding number about each, ascending. Shells with the winding number 0 are left out.
 using Windings = std::vector<std::pair<std::uint32_t, int>>;
 
 class Wall {
  public:
   Wall(const TriMesh& mesh, const Components& shells, const RunContext& context) : mesh_(mesh), shells_(shells), tree_(boxes_of(mesh, context), context) {}
 
-  /// Crossings with the line through p along an axis, sorted along it; nothing if the line touches an edge or a vertex.
+  /// Returns the crossings with the line through p along an axis, sorted along the line; nothing if the line touches an edge or a vertex.
   std::optional<std::vector<Crossing>> crossings(const Vec3& p, std::size_t axis) const {
     Box line;
     line.min = line.max = p;
@@ -64,7 +64,7 @@ class Wall {
     return found;
   }
 
-  /// Winding numbers, exact, from the crossings with the line through p. Nothing if p lies on a triangle.
+  /// Returns the exact winding numbers from the crossings with the line through p; nothing if p lies on a triangle.
   std::optional<Windings> windings(const Vec3& p, const std::vector<Crossing>& crossings) const {
     std::map<std::uint32_t, int> sum;
     for (const Crossing& crossing : crossings) {
@@ -88,7 +88,7 @@ class Wall {
     });
     return boxes;
   }
-  /// Orientation of a crossing; 0: no crossing. Exact, in the projection along the axis.
+  /// Returns the orientation of a crossing; 0: there is no crossing. Exact, in the projection along the axis.
   int sense_of_crossing(TriangleId t, const Vec3& p, std::size_t axis, bool& is_degenerate) const {
     const std::size_t u = (axis + 1) % 3, v = (axis + 2) % 3;
     const auto flat = [&](const Vec3& q) { return Vec2{q[u], q[v]}; };
@@ -117,7 +117,7 @@ class Wall {
   BoxTree tree_;
 };
 
-/// The largest triangles of each shell, shell after shell, in descending order of area.
+/// Returns the largest triangles of each shell, in descending order of area.
 std::vector<std::vector<TriangleId>> largest_triangles(const TriMesh& wall, const Components& shells) {
   std::vector<std::vector<std::pair<double, TriangleId>>> best(shells.count);
   const auto is_before = [](const auto& a, const auto& b) { return a.first != b.first ? a.first > b.first : a.second < b.second; };
@@ -143,7 +143,7 @@ std::size_t dominant_axis(const Vec3& n) {
 
 struct Candidate {
   Point point;
-  double room = 0.0;  ///< least distance to the wall along the axes
+  double room = 0.0;  ///< smallest distance to the wall along the axes
   Windings windings;
 };
 
@@ -158,7 +158,7 @@ bool is_solid(const Windings& windings) {
   return sum == 1;
 }
 
-/// Moves the point to the middle of its segment along one axis, if exact signs prove that it stays in its region, and stores the clearance there.
+/// Moves the point to the middle of its segment along one axis if exact signs prove that it stays in its region. Stores the clearance along the axis.
 void center(const Wall& surface, std::size_t axis, Candidate& candidate) {
   const auto crossings = surface.crossings(candidate.point, axis);
   if (!crossings) return;
@@ -171,7 +171,8 @@ void center(const Wall& surface, std::size_t axis, Candidate& candidate) {
   candidate.room = std::min(candidate.room, 0.5 * (next->at - (next - 1)->at));
 }
 
-/// Returns the middle of the segment behind a triangle, centred; nothing if every line tried meets an edge, or if there is no solid (then `failure` is set).
+/// Returns the centred point in the segment behind a triangle. Returns nothing if every line that was tried hits an edge, or if there is no solid (then
+/// `failure` is set).
 std::optional<Candidate> point_behind(const Wall& surface, const TriMesh& wall, TriangleId t, std::optional<Failure>& failure) {
   const auto [a, b, c] = corners(wall, t);
   const std::size_t axis = dominant_axis(cross(b - a, c - a));
@@ -180,7 +181,7 @@ std::optional<Candidate> point_behind(const Wall& surface, const TriMesh& wall, 
     const auto crossings = surface.crossings(p, axis);
     if (!crossings) continue;
     const auto here = std::ranges::find(*crossings, t, &Crossing::triangle);
-    if (here == crossings->end()) continue;  // a sliver triangle: rounding moved the line out of it
+    if (here == crossings->end()) continue;  // this is a sliver triangle, and rounding moved the line out of it
     const bool is_last = here->sense > 0 ? here == crossings->begin() : here + 1 == crossings->end();
     if (is_last) {
       failure = {p, "no surface behind this triangle"};
@@ -201,7 +202,7 @@ std::optional<Candidate> point_behind(const Wall& surface, const TriMesh& wall, 
   return std::nullopt;
 }
 
-/// Returns the point with the largest clearance. \throws Error(not_orientable) if none of the triangles has a solid behind it.
+/// Returns the point with the largest clearance. \throws Error(not_orientable) if there is no solid behind any of the triangles
 Candidate roomiest_point(const Wall& surface, const TriMesh& wall, const std::vector<TriangleId>& triangles) {
   Candidate best;
   std::optional<Failure> failure;
@@ -233,7 +234,7 @@ std::vector<Point> find_cavity_points(const TriMesh& wall, const RunContext& con
   parallel_for(
       context, candidates.size(), [&](std::size_t shell) { candidates[shell] = roomiest_point(surface, wall, triangles[shell]); }, 1);
 
-  // Keep one point per region, the one with the largest clearance, at the position of its first shell.
+  // For each region only the point with the largest clearance is kept, at the position of the region's first shell.
   std::vector<Candidate> kept;
   std::map<Windings, std::size_t> region_of;
   for (Candidate& candidate : candidates) {

@@ -21,25 +21,25 @@
 namespace sterna::volmesh {
 namespace {
 
-/// Power of two that scales the largest coordinate into [1, 2).
+/// Returns the power of two that scales the largest coordinate into [1, 2).
 double unit_scale(std::span<const Vec3> points) {
   double largest = 0.0;
   for (const Vec3& p : points) largest = std::max({largest, std::abs(p.x), std::abs(p.y), std::abs(p.z)});
   return std::ldexp(1.0, -std::ilogb(largest));
 }
 
-// Default limit of an engine's computing time. The slowest runs of docs/tetrahedra.md made 67 000 tetrahedra in a second; long, thin triangles cost 25 s more,
+// Default limit of an engine's computing time. The slowest runs of docs/tetrahedra.md made 67 000 tetrahedra in a second. Long, thin triangles cost 25 s more,
 // whatever their number. A run that takes seven times as long is treated as endless.
 constexpr double k_least_seconds = 60.0;
 constexpr double k_seconds_per_tetrahedron = 1e-4;
-/// Ratio on clean surfaces; tetrahedra required by sources are estimated from the size field.
+/// Ratio of tetrahedra to triangles on clean surfaces. The tetrahedra that sources require are estimated from the size field.
 constexpr double k_tetrahedra_per_triangle = 10.0;
-/// Ratio for the size field (docs/tetrahedra.md).
+/// Ratio of tetrahedra to leaves of the size field (docs/tetrahedra.md).
 constexpr double k_tetrahedra_per_leaf = 30.0;
-/// With splits for quality, the number of triangles increases strongly.
+/// With splits for quality the number of triangles increases by up to about this factor.
 constexpr double k_splits_factor = 10.0;
 
-/// Points and facets in the form sent to the engine.
+/// Points and facets in the form in which they are sent to the engine.
 struct Sent {
   explicit Sent(const EngineInput& input)
       : points(input.joined ? std::span<const Vec3>(input.joined->points) : input.boundary.points),
@@ -48,7 +48,7 @@ struct Sent {
   std::span<const std::array<std::uint32_t, 3>> facets;
 };
 
-/// The request in shared memory, in the layout of wire.h.
+/// The request in shared memory, with the layout of wire.h.
 class Request {
  public:
   Request(const EngineInput& input, const TetraOptions& options, const RunContext& context)
@@ -91,7 +91,7 @@ class Request {
     put(parts.surface2second.data(), sizeof(std::int32_t) * parts.surface2second.size());
   }
   const SharedBlock& block() const { return block_; }
-  std::span<const Vec3> points() const { return {points_, n_points_}; }  ///< in the form received by the engine
+  std::span<const Vec3> points() const { return {points_, n_points_}; }  ///< points in the form that the engine receives
   double scale() const { return scale_; }
 
  private:
@@ -106,7 +106,7 @@ class Request {
   std::size_t n_points_ = 0;
 };
 
-/// Returns the name of TetGen's code as in terminatetetgen() of tetgen.h; the other engines have no codes.
+/// Returns the name of a TetGen error code, as in terminatetetgen() of tetgen.h. The other engines have no codes.
 std::string text_of_code(EngineKind kind, int code) {
   if (kind != EngineKind::tetgen) return "failed";
   const std::string number = " (code " + std::to_string(code) + ")";
@@ -135,7 +135,7 @@ EngineFailure failure(FailureKind failure_kind, EngineKind kind, std::string pro
   return {failure_kind, {.code = ErrorCode::tetra_engine_failed, .attempted = attempt(kind), .problem = std::move(problem), .hint = std::move(hint)}};
 }
 
-/// Returns the reason why a helper did not return a mesh; nothing if it did.
+/// Returns the reason why a helper process returned no mesh; nothing if it returned one.
 std::optional<EngineFailure> judge_exit(EngineKind kind, const HelperExit& exit, const wire::ReplyHeader& header, const TetraOptions& options) {
   const bool is_reply = header.magic == wire::k_reply_magic;
   if (exit.is_success() && is_reply && header.outcome == wire::Outcome::ok) return std::nullopt;
@@ -186,7 +186,7 @@ std::optional<EngineFailure> judge_count(EngineKind kind, const wire::ReplyHeade
                .places = std::move(places)});
 }
 
-/// Stores the splits. Boundary points come right after the input's boundary points, in the engine's order; points in the volume follow.
+/// Stores the splits. Boundary points come directly after the input's boundary points, in the engine's order. Points in the volume follow.
 void adopt_splits(const TetraBoundary& boundary, std::span<const std::array<std::uint32_t, 3>> triangles, std::span<const std::uint32_t> parents,
                   TetraResult& result) {
   const std::size_t n_old = boundary.points.size();
@@ -249,7 +249,7 @@ TetraResult read_result(EngineKind kind, const wire::ReplyHeader& header, const 
   return result;
 }
 
-/// Verifies the result as in verify.h, for the boundary as split by the engine.
+/// Verifies the result like verify.h, for the boundary as the engine split it.
 void verify(const TetraBoundary& boundary, const TetraResult& result, const RunContext& context) {
   if (result.splits.empty()) return verify_tetrahedra(boundary, result, context);
   std::vector<Vec3> points(boundary.points.begin(), boundary.points.end());

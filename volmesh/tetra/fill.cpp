@@ -17,12 +17,12 @@
 
 namespace sterna::volmesh {
 
-/// One attempt: an engine and its permission to split.
+/// One attempt: an engine, and its permission to split triangles.
 struct LadderRung {
   EngineKind engine;
   SplitMode splits = SplitMode::none;
   bool is_two_pass = false;
-  /// Returns true if the engine splits on request; leftover points are no reason to skip it.
+  /// Returns true if the attempt requests splits from the engine. Leftover points are not requested, so they are no reason to skip the attempt.
   bool has_splits() const { return splits == SplitMode::recovery || splits == SplitMode::quality; }
 };
 
@@ -39,12 +39,13 @@ std::string text_of(const LadderRung& rung) {
   return std::string(display_name(rung.engine)) + (rung.has_splits() ? " with splits of boundary triangles" : "") + (rung.is_two_pass ? " in two passes" : "");
 }
 
-/// Corner angle below which a boundary triangle counts as a sliver for sterna's own engine: beside slivers it leaves somewhat more bad tetrahedra than HXT.
+/// Corner angle (8 degrees) below which a boundary triangle counts as a sliver. Beside slivers sterna's own engine leaves somewhat more bad tetrahedra than
+/// HXT.
 constexpr double k_needle_cosine = 0.990268;  // 8 degrees
-/// Up to this share of slivers, sterna's own engine is at least as good as HXT (docs/tetrahedra.md).
+/// Largest fraction of slivers for which sterna's own engine is at least as good as HXT (docs/tetrahedra.md).
 constexpr double k_most_needles = 0.02;
 
-/// Limit of the share of flat and long tetrahedra on tops of wake sheets: above it, the result of sterna's own engine is worse than that of HXT.
+/// Limit for the fraction of flat and long tetrahedra on tops of wake sheets. Above it, the result of sterna's own engine is worse than that of HXT.
 constexpr double k_most_stuck = 1e-3;
 
 bool is_needle(const Vec3& a, const Vec3& b, const Vec3& c) {
@@ -105,8 +106,8 @@ std::vector<LadderRung> rungs_of(const TetraBoundary& boundary, bool has_sizes, 
   return rungs;
 }
 
-/// Returns true if this attempt may follow after these failures: the last failure of an available engine decides. An engine that exceeded its time has also
-/// used up the time for splits: after it only the other engine is tried, unless fall_back_on_limits is set.
+/// Returns true if this attempt may follow after these failures. The last failure of an available engine decides this. If an engine exceeded its time, there is
+/// no time left for splits: then only the other engine is tried, unless fall_back_on_limits is set.
 bool may_follow(const LadderRung& rung, const std::vector<EngineFailure>& failures, const TetraOptions& options) {
   const auto last = std::find_if(failures.rbegin(), failures.rend(), [](const EngineFailure& f) { return f.kind != FailureKind::missing; });
   if (last == failures.rend()) return !rung.has_splits() && options.engine == "automatic";
@@ -126,7 +127,8 @@ EngineOutcome run(const LadderRung& rung, const TetraBoundary& boundary, const J
   context.info("first pass: " + std::to_string(first.result->tetrahedra.size()) + " tetrahedra");
   const SizeSource samples = nodal_sizes(boundary, *first.result, context);
   if (samples.points.empty())
-    return run_engine(rung.engine, {boundary, parts, sizes, rung.splits, joined}, options, context);  // no nodes in the volume to take sizes from
+    // There are no nodes in the volume from which sizes could be taken.
+    return run_engine(rung.engine, {boundary, parts, sizes, rung.splits, joined}, options, context);
   const SizeField field = sizes ? sizes->with(samples, boundary, context) : build_size_field(boundary, std::span(&samples, 1), {}, context);
   SizeSupply second_sizes(field);
   EngineOutcome second = run_engine(rung.engine, {boundary, parts, &second_sizes, rung.splits, joined}, options, context);
@@ -147,7 +149,7 @@ void tell_all(const std::vector<EngineFailure>& failures, ErrorInfo& error) {
       "larger tetrahedra.time_limit (seconds)";
 }
 
-/// Checks the boundary for the engines and finds its parts. \throws Error for a boundary that is not closed, not manifold or intersects itself
+/// Checks the boundary for the engines, and finds its parts. \throws Error for a boundary that is not closed, not manifold or intersects itself
 BoundaryParts checked_parts(const TetraBoundary& boundary, const std::optional<JoinedBoundary>& joined, PreflightReport& seen, const RunContext& context) {
   const StageTimer timer(context, "tetrahedra/boundary");
   const TetraBoundary closed =
@@ -169,10 +171,10 @@ struct TetraLadder::State {
         rungs(rungs_of(of, size_supply != nullptr, tetra_options, run_context)),
         joined(of.has_sheets ? std::optional(join_sheets(of, run_context)) : std::nullopt),
         parts(checked_parts(of, joined, seen, run_context)) {
-    // For a boundary known to be clear, preflight only reports what is difficult for engines: this can run beside the first engine.
+    // If the boundary is known to be clear, the preflight check only reports what is difficult for engines. It can run in parallel with the first engine.
     if (!boundary.is_clear) return;
     look.emplace(context, [this](const RunContext& side) {
-      if (sizes) sizes->wait();  // the engine needs them sooner
+      if (sizes) sizes->wait();  // the check waits, because the engine needs the sizes sooner
       return preflight(boundary, {.is_clear = true}, side);
     });
   }
@@ -214,7 +216,7 @@ struct TetraLadder::State {
     return result;
   }
 
-  /// Returns true if another engine should be tried although there is a result.
+  /// Returns true if another engine should be tried although there is a result, because refinement got stuck.
   bool is_stuck(const LadderRung& rung, const EngineOutcome& outcome) const {
     return rung.engine == EngineKind::sterna && boundary.has_wakes && outcome.stuck_share > k_most_stuck && options.engine == "automatic" &&
            options.try_other_engine && next_rung + 1 < rungs.size();
@@ -234,7 +236,7 @@ struct TetraLadder::State {
   }
 
   [[noreturn]] void throw_failures() const {
-    // An engine that failed explains more than an engine that is missing.
+    // An engine that failed gives more information than an engine that is missing.
     const auto telling = std::ranges::find_if(failures, [](const EngineFailure& f) { return f.kind != FailureKind::missing; });
     std::vector<std::string> problems;
     for (const EngineFailure& failure : failures) problems.push_back(failure.error.problem);
@@ -253,11 +255,11 @@ struct TetraLadder::State {
   std::vector<LadderRung> rungs;
   std::size_t next_rung = 0;
   PreflightReport seen;
-  std::optional<JoinedBoundary> joined;  // the two sides of a sheet are one for the engines
+  std::optional<JoinedBoundary> joined;  // joined boundary: for the engines the two sides of a sheet are one
   BoundaryParts parts;
   std::optional<Alongside<PreflightReport>> look;
   std::vector<EngineFailure> failures;
-  std::optional<TetraResult> second_best;  ///< a valid result with stuck refinement, kept until another engine has a result
+  std::optional<TetraResult> second_best;  ///< a valid result whose refinement got stuck; it is kept until another engine has a result
 };
 
 TetraLadder::TetraLadder(const TetraBoundary& boundary, SizeSupply* sizes, const TetraOptions& options, const RunContext& context)

@@ -1,4 +1,5 @@
-// Common code of the engine helpers' mains: reading the request, writing the reply, limits. All code of a helper process is here or in its main.
+// Common code of the main programs of the engine helpers: reads the request, writes the reply, and sets limits. All code of a helper process is here or in its
+// main program.
 #pragma once
 
 #include <fcntl.h>
@@ -22,7 +23,7 @@
 
 namespace sterna::volmesh::helper {
 
-/// Writes a final message for the parent, which quotes it.
+/// Writes a final message. The parent process quotes it.
 inline void say(std::string_view text) {
   if (write(STDERR_FILENO, text.data(), text.size()) < 0) std::_Exit(3);
 }
@@ -40,7 +41,7 @@ inline void write_all(const void* data, std::size_t size) {
   }
 }
 
-/// Peak memory of this process; ru_maxrss is unsuitable, because after a vfork it starts at the parent's size.
+/// Returns the peak memory of this process. ru_maxrss is not suitable, because after a vfork it starts at the size of the parent.
 inline double peak_bytes() {
   double kilobytes = 0.0;
   if (std::FILE* status = std::fopen("/proc/self/status", "r")) {
@@ -53,7 +54,7 @@ inline double peak_bytes() {
   return 1024.0 * kilobytes;
 }
 
-/// Wall time since construction.
+/// Measures the elapsed time since its construction.
 class Stopwatch {
  public:
   double seconds() const { return std::chrono::duration<double>(std::chrono::steady_clock::now() - start_).count(); }
@@ -74,14 +75,14 @@ inline int reply_failure(wire::Outcome outcome, int engine_code, double seconds)
   return 1;
 }
 
-/// A boundary with split triangles, for the reply.
+/// A boundary with split triangles, as sent in the reply.
 struct SplitBoundary {
   const int* triangles = nullptr;
-  const int* parents = nullptr;  ///< for each triangle: its parent in the request, from 0
+  const int* parents = nullptr;  ///< parent of each triangle in the request, counted from 0
   std::size_t n_triangles = 0;
 };
 
-/// Writes the mesh and ends the process: the kernel frees a few hundred megabytes faster than destructors.
+/// Writes the mesh and ends the process. The process ends without destructors, because the kernel frees a few hundred megabytes faster.
 [[noreturn]] inline void reply_mesh(const double* points, std::size_t n_points, const int* tetrahedra, std::size_t n_tetrahedra, double seconds,
                                     const SplitBoundary& boundary = {}) {
   wire::ReplyHeader reply;
@@ -99,9 +100,9 @@ struct SplitBoundary {
   std::_Exit(0);
 }
 
-/// A private mapping of the request: the engine may modify it.
+/// A private mapping of the request, which the engine may modify.
 struct Request {
-  const wire::RequestHeader* header = nullptr;  ///< nullptr: not a request
+  const wire::RequestHeader* header = nullptr;  ///< nullptr: the data is no request
   double* points = nullptr;
   double* holes = nullptr;
   int* triangles = nullptr;
@@ -131,7 +132,7 @@ inline Request map_request() {
   return request;
 }
 
-/// The processor time limit of the process, s; static for its signal handler.
+/// The processor time limit of the process in s. It is static because the signal handler needs it.
 inline double& processor_limit() {
   static double seconds = 0.0;
   return seconds;
@@ -145,8 +146,8 @@ inline void on_out_of_time(int) {
   std::_Exit(1);
 }
 
-/// Limits the processor time from the start of the process: the same work has the same limit on a busy machine. The kernel counts whole seconds. A lower limit
-/// that was set before the process started is kept.
+/// Limits the processor time since the start of the process, so that the same work has the same limit on a busy machine. The kernel counts whole seconds. A
+/// lower limit that was set before the process started is kept.
 inline void limit_processor(double seconds) {
   static const rlimit before = [] {
     rlimit limit{RLIM_INFINITY, RLIM_INFINITY};
@@ -159,10 +160,10 @@ inline void limit_processor(double seconds) {
   setrlimit(RLIMIT_CPU, &limit);
 }
 
-/// The size field, which the parent may still be building: the first evaluation waits for it.
+/// The size field, which the parent may still be building. The first evaluation waits for it.
 class LateSizes {
  public:
-  /// Sizes in the request's units.
+  /// Sizes are returned in the units of the request.
   explicit LateSizes(const wire::RequestHeader& header) : header_(header), scale_(header.scale) {}
   double operator()(double x, double y, double z) {
     if (!view_.is_valid()) wait();
@@ -192,7 +193,7 @@ class LateSizes {
   double waited_ = 0.0;
 };
 
-/// Ensures that the helper does not outlive its parent, writes no core file, and stays within its memory and time limits.
+/// Ensures that the helper does not outlive its parent process, writes no core file, and stays within its memory and time limits.
 inline void limit_resources(const wire::RequestHeader& header) {
   prctl(PR_SET_PDEATHSIG, SIGKILL);
   const rlimit none{0, 0};

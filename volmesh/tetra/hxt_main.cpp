@@ -1,16 +1,18 @@
-// sterna-tet-hxt: one call of HXT (in libgmsh) in a separate process. Reads the request from file descriptor 3, writes the reply to 4 (wire.h).
+// sterna-tet-hxt: one call of HXT (in libgmsh) in a separate process. Reads the request from file descriptor 3, and writes the reply to file descriptor 4
+// (wire.h).
 //
-// Reasons for the process: HXT's crashes on unsuitable input, its memory, its global state, its output, and symbols that libgmsh shares with TetGen.
-// Known properties of HXT as built by Debian (Gmsh 4.8.4; all measured):
-// - It identifies the region of a tetrahedron by the set of surfaces around it, so every closed component of the boundary must be a separate surface: with a
+// A separate process is used because of HXT's crashes on unsuitable input, its memory, its global state, its output, and symbols that libgmsh shares with
+// TetGen. Known properties of HXT as built by Debian (Gmsh 4.8.4; all measured):
+// - It identifies the region of a tetrahedron by the set of surfaces around it, so every closed component of the boundary must be a separate surface. With a
 //   single surface it cannot distinguish the domain from the inside of a body, and fails.
-// - Its improvement does not give up on tetrahedra that the boundary forces: pygeo_bwb takes 0.2 s without and 20 s with Gmsh's threshold of 0.3; NACA0012 with
-//   strips of 1 m by 0.5 mm 25 s without, and more than four minutes even with 0.02. So it is off by default.
-// - It does not report that it ran out of memory; a crash is also possible then.
+// - Its improvement does not stop at tetrahedra that the boundary forces. pygeo_bwb takes 0.2 s without improvement, and 20 s with Gmsh's threshold of 0.3.
+//   NACA0012 with strips of 1 m by 0.5 mm takes 25 s without improvement, and more than four minutes even with a threshold of 0.02. The improvement is
+//   therefore off by default.
+// - It does not report that there was not enough memory; it may also crash in that case.
 // - With more than one thread its result differs from run to run.
-// - It reads uninitialised memory: with other heap contents pygeo_bwb gets other tetrahedra. So all memory is initialised to zero.
-// - It reads freed memory, where glibc's per-thread cache stores a random key: one run in five of pygeo_bwb with ten layers differed. So this cache is
-//   disabled.
+// - It reads uninitialised memory: with other contents of the heap, pygeo_bwb gets other tetrahedra. Therefore all memory is initialised to zero.
+// - It reads freed memory, in which the per-thread cache of glibc stores a random key. One in five runs of pygeo_bwb with ten layers differed. Therefore this
+//   cache is disabled.
 
 #include <gmsh.h>
 #include <malloc.h>
@@ -29,8 +31,8 @@
 
 #include "volmesh/tetra/helper_side.h"
 
-// HXT reports "failed" if it gets no memory, and reads uninitialised memory. The program's own allocation functions replace those of the C library: they call
-// them, record failures and clear the memory.
+// HXT reports "failed" if it gets no memory, and it reads uninitialised memory. The allocation functions below replace those of the C library: they call the
+// latter, record failures and clear the memory.
 extern "C" {
 void* __libc_malloc(std::size_t size);                           // NOLINT(readability-identifier-naming): glibc's name
 void* __libc_calloc(std::size_t count, std::size_t size);        // NOLINT(readability-identifier-naming): glibc's name
@@ -56,29 +58,29 @@ void* cleared(void* block, std::size_t begin) {
   return block;
 }
 
-constexpr int k_hxt = 10;      ///< Mesh.Algorithm3D
-constexpr int k_triangle = 2;  ///< Gmsh's element types
+constexpr int k_hxt = 10;      ///< value of Mesh.Algorithm3D for HXT
+constexpr int k_triangle = 2;  ///< number of the element type in Gmsh
 constexpr int k_tetrahedron = 4;
 
-/// HXT uses the given size as the approximate distance of points, so that edges become longer: their geometric mean is 1.44 times the size (measured in a field
-/// of constant size). HXT is given this share of the target length.
+/// HXT uses the given size as the approximate distance of points, so edges are longer: their geometric mean is 1.44 times the size (measured in a field of
+/// constant size). Therefore HXT receives this fraction of the target length.
 constexpr double k_size_factor = 1.0 / 1.44;
 
-/// Edge length for no refinement; coordinates are at most 2.
+/// Edge length that leads to no refinement; coordinates are at most 2.
 constexpr double k_no_size = 1e6;
 
 void set_options(const wire::RequestHeader& header) {
   gmsh::option::setNumber("General.Terminal", 1);
-  gmsh::option::setNumber("General.Verbosity", 2);  // warnings and errors
+  gmsh::option::setNumber("General.Verbosity", 2);  // prints warnings and errors
   for (const char* threads : {"General.NumThreads", "Mesh.MaxNumThreads1D", "Mesh.MaxNumThreads2D", "Mesh.MaxNumThreads3D"})
     gmsh::option::setNumber(threads, 1);
   gmsh::option::setNumber("Mesh.Algorithm3D", k_hxt);
   gmsh::option::setNumber("Mesh.Optimize", header.improve_below > 0.0 ? 1 : 0);
   gmsh::option::setNumber("Mesh.OptimizeThreshold", header.improve_below);
-  gmsh::option::setNumber("Mesh.Renumber", 0);  // node tags are point numbers of the request
+  gmsh::option::setNumber("Mesh.Renumber", 0);  // node tags stay the point numbers of the request
 }
 
-/// Defines surfaces with their nodes and triangles, and a volume for each region. Tags are 1-based.
+/// Defines surfaces with their nodes and triangles, and a volume for each region. Tags start at 1.
 void set_boundary(const helper::Request& request) {
   const wire::RequestHeader& header = *request.header;
   std::vector<int> point2surface(header.n_points, -1);
@@ -87,7 +89,7 @@ void set_boundary(const helper::Request& request) {
     const int surface = request.triangle2surface[t];
     for (std::size_t k = 0; k < 3; ++k) {
       const auto v = static_cast<std::size_t>(request.triangles[3 * t + k]);
-      if (point2surface[v] < 0) point2surface[v] = surface;  // boundary points of a sheet may belong to the boundary
+      if (point2surface[v] < 0) point2surface[v] = surface;  // points on the border of a sheet may belong to another surface of the boundary
       corners[static_cast<std::size_t>(surface)].push_back(v + 1);
     }
   }
@@ -100,7 +102,7 @@ void set_boundary(const helper::Request& request) {
   }
   std::vector<std::vector<int>> region2surfaces, region2sheets;
   const std::size_t n_closed = header.n_surfaces - header.n_sheet_surfaces;
-  // Surfaces on both sides of a sheet between two regions share nodes.
+  // The surfaces on both sides of a sheet between two regions share nodes.
   const bool shares_nodes = std::any_of(request.surface2second, request.surface2second + header.n_surfaces, [](int region) { return region >= 0; });
   const auto add_triangles = [&](std::size_t s) { gmsh::model::mesh::addElementsByType(static_cast<int>(s) + 1, k_triangle, {}, corners[s]); };
   for (std::size_t s = 0; s < header.n_surfaces; ++s) {
@@ -125,7 +127,7 @@ void set_boundary(const helper::Request& request) {
     if (!region2sheets[region].empty()) gmsh::model::mesh::embed(2, region2sheets[region], 3, volumes[region]);
 }
 
-/// Sets the size field as the only source of edge lengths: HXT would take the minimum with sizes extended from the boundary.
+/// Sets the size field as the only source of edge lengths. Otherwise HXT would use the minimum of it and the sizes extended from the boundary.
 void set_size_field(const helper::Request& request, helper::LateSizes& sizes) {
   if (request.header->is_recovery_only) {
     gmsh::option::setNumber("Mesh.MeshSizeExtendFromBoundary", 0);
@@ -137,7 +139,7 @@ void set_size_field(const helper::Request& request, helper::LateSizes& sizes) {
   gmsh::model::mesh::setSizeCallback([&sizes](int, int, double x, double y, double z) { return k_size_factor * sizes(x, y, z); });
 }
 
-/// Sends the mesh: boundary points first, then the new ones in the order of their tags.
+/// Sends the mesh. Boundary points come first, then the new points in the order of their tags.
 [[noreturn]] void send_mesh(const helper::Request& request, double seconds) {
   const std::size_t n_boundary = request.header->n_points;
   std::vector<std::size_t> tags, element_tags, corners;
@@ -147,21 +149,21 @@ void set_size_field(const helper::Request& request, helper::LateSizes& sizes) {
   std::size_t last_tag = n_boundary;
   for (const std::size_t tag : tags) last_tag = std::max(last_tag, tag);
 
-  // Tags have gaps where HXT has removed points again.
+  // The tags have gaps where HXT has removed points again.
   std::vector<int> tag2point(last_tag + 1, -1);
   for (const std::size_t tag : tags) tag2point[tag] = 0;
   int n_points = 0;
   for (std::size_t tag = 1; tag <= last_tag; ++tag) {
     if (tag2point[tag] == 0 || tag <= n_boundary) tag2point[tag] = n_points++;
   }
-  std::vector<double> points(3 * static_cast<std::size_t>(n_points), std::nan(""));  // the parent detects missing boundary points
+  std::vector<double> points(3 * static_cast<std::size_t>(n_points), std::nan(""));  // the parent process detects missing boundary points by the NaN
   for (std::size_t i = 0; i < tags.size(); ++i) std::memcpy(points.data() + 3 * tag2point[tags[i]], coordinates.data() + 3 * i, 24);
   std::vector<int> tetrahedra(corners.size());
   for (std::size_t i = 0; i < corners.size(); ++i) tetrahedra[i] = tag2point[corners[i]];
   helper::reply_mesh(points.data(), static_cast<std::size_t>(n_points), tetrahedra.data(), tetrahedra.size() / 4, seconds);
 }
 
-/// Reports a crash after a failed allocation as out of memory.
+/// Reports a crash after a failed allocation as lack of memory.
 void on_crash(int signal) {
   if (is_memory_short) {
     wire::ReplyHeader reply;
@@ -213,7 +215,8 @@ int posix_memalign(void** block, std::size_t alignment, std::size_t size) {
 }
 }
 
-/// Restarts the process if glibc's tunable has another value: glibc reads it before main() begins. Also removes settings that would fill freed blocks.
+/// Restarts the process if the tunable of glibc has another value, because glibc reads it before main() begins. Also removes settings that would fill freed
+/// blocks.
 void require_no_thread_cache() {
   constexpr const char *k_name = "GLIBC_TUNABLES", *k_value = "glibc.malloc.tcache_count=0";
   if (const char* now = std::getenv(k_name); now && std::strcmp(now, k_value) == 0) return;

@@ -20,11 +20,11 @@
 namespace sterna::volmesh {
 namespace {
 
-// Shares of the time: sizes are made before the recovery, on one thread and not in parallel with other steps.
+// Fractions of the time at the ends of the steps. On a single thread the sizes are made before the recovery and not in parallel with other steps.
 constexpr double k_begins = 0.15, k_begins_alone = 0.45, k_recovery = 0.12, k_refinement_ends = 0.97;
-/// Expected tetrahedra per leaf of the size field: a third more than the mean (docs/tetrahedra.md). Unused capacity costs no memory.
+/// Expected number of tetrahedra per leaf of the size field, a third more than the mean (docs/tetrahedra.md). Unused capacity costs no memory.
 constexpr double k_places_per_leaf = 40.0;
-constexpr double k_most_places = 5e7;  ///< initial limit
+constexpr double k_most_places = 5e7;  ///< upper limit of the initial capacity
 
 EngineOutcome failed(FailureKind kind, ErrorInfo error) { return {std::nullopt, {kind, std::move(error)}}; }
 
@@ -34,7 +34,7 @@ EngineOutcome no_sizes() {
                                              .problem = "there is no size field, which the built-in engine needs to place points in the volume"});
 }
 
-/// Returns the boundary's points and the points that recovery added in the volume.
+/// Returns the points of the boundary, and the points that the recovery added in the volume.
 std::vector<Vec3> all_points(const TetraBoundary& boundary, const TetraResult& result) {
   std::vector<Vec3> points(boundary.points.begin(), boundary.points.end());
   points.insert(points.end(), result.new_points.begin(), result.new_points.end());
@@ -67,12 +67,12 @@ std::optional<tets::TetMesh> recover_here(const EngineInput& input, std::vector<
   return tets::connect(all_points(boundary, result), result.tetrahedra, context);
 }
 
-/// Recovers the boundary with another engine: the first that succeeds; otherwise the first informative failure.
+/// Recovers the boundary with another engine. Returns the result of the first engine that succeeds, otherwise the first informative failure.
 EngineOutcome recover_elsewhere(const EngineInput& input, const TetraOptions& options, const RunContext& context) {
   const StageTimer timer(context, "tetrahedra/recovery");
   const EngineInput recovery{.boundary = input.boundary, .parts = input.parts, .joined = input.joined, .is_recovery_only = true};
   EngineOutcome first = run_engine(EngineKind::hxt, recovery, options, context);
-  if (first.result || first.failure.kind == FailureKind::limit) return first;  // time and memory limits must not decide between engines
+  if (first.result || first.failure.kind == FailureKind::limit) return first;  // time and memory limits must not determine the choice of the engine
   context.warn("recovery of the boundary: " + first.failure.error.attempted + ": " + first.failure.error.problem + "; trying TetGen");
   EngineOutcome second = run_engine(EngineKind::tetgen, recovery, options, context);
   if (second.result) second.result->failures.push_back("recovery of the boundary: " + first.failure.error.problem);
@@ -89,7 +89,7 @@ std::string told(const tets::RefineReport& report, std::size_t n_tets, double re
   return text;
 }
 
-/// A context that is also stopped after some time; without a limit, the caller's context.
+/// A context that is also stopped after some time. Without a limit it is the caller's context.
 class Deadline {
  public:
   Deadline(double seconds, const RunContext& context) : outer_(context), context_(context) {
@@ -103,13 +103,13 @@ class Deadline {
     });
   }
   const RunContext& context() const { return context_; }
-  /// Returns true if the deadline caused the stop, not the user.
+  /// Returns true if the deadline caused the stop, and not the user.
   bool is_over() const { return source_.stop_requested() && !outer_.stop_token().stop_requested(); }
 
  private:
   RunContext outer_, context_;
   std::stop_source source_;
-  std::jthread clock_;  ///< last member: ends before the members that it uses
+  std::jthread clock_;  ///< must be the last member, because it must end before the members that it uses
 };
 
 EngineOutcome over_limit(std::string problem, const char* option) {
@@ -127,7 +127,7 @@ std::string rounded(double value, const char* unit) {
 
 double seconds_since(std::chrono::steady_clock::time_point start) { return std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count(); }
 
-/// Refines the mesh of the boundary with points in the volume. Returns false if it would need more than `most_bytes`.
+/// Refines the mesh of the boundary with points in the volume. Returns false if this would need more than `most_bytes`.
 bool refine_mesh(const EngineInput& input, tets::TetMesh mesh, double most_bytes, EngineOutcome& outcome, const RunContext& context) {
   const StageTimer timer(context, "tetrahedra/refinement");
   const auto start = std::chrono::steady_clock::now();

@@ -14,18 +14,18 @@
 namespace sterna::volmesh {
 namespace {
 
-constexpr std::size_t k_triangle_chunk = 512;   ///< triangles per task: about 2 ms
-constexpr std::int64_t k_findings_kept = 1000;  ///< findings of each kind
-constexpr int k_angle_digits = 3;               ///< digits of numbers in messages
-/// A flatter triangle (height over longest edge) has no normal that could separate it from others.
+constexpr std::size_t k_triangle_chunk = 512;   ///< triangles per task, which takes about 2 ms
+constexpr std::int64_t k_findings_kept = 1000;  ///< largest number of stored findings of each kind
+constexpr int k_angle_digits = 3;               ///< number of digits in messages
+/// A triangle with a smaller ratio of height to longest edge has no normal that could separate it from other triangles.
 constexpr double k_flat_sine = 1e-6;
-/// Conservative bound of the rounding error of a distance to a plane over the largest coordinate.
+/// Upper bound of the rounding error of a distance to a plane, relative to the largest coordinate.
 constexpr double k_rounding = 1e-12;
 
 struct Shape {
-  Vec3 normal;  ///< unit; zero for a flat triangle
+  Vec3 normal;  ///< unit normal; zero for a flat triangle
   double mean_edge = 0.0;
-  double flatness = 0.0;  ///< smallest height over longest edge
+  double flatness = 0.0;  ///< ratio of the smallest height to the longest edge
 };
 
 Shape shape_of(const Vec3& a, const Vec3& b, const Vec3& c) {
@@ -47,7 +47,7 @@ double point_to_segment(const Vec3& p, const Vec3& a, const Vec3& b) {
   return distance(p, a + t * d);
 }
 
-/// Distance of two segments that have no common point.
+/// Returns the distance of two segments that have no common point.
 double segment_to_segment(const Vec3& a, const Vec3& b, const Vec3& c, const Vec3& d) {
   const Vec3 u = b - a, v = d - c, w = a - c;
   const double uu = norm2(u), uv = dot(u, v), vv = norm2(v), uw = dot(u, w), vw = dot(v, w);
@@ -59,7 +59,7 @@ double segment_to_segment(const Vec3& a, const Vec3& b, const Vec3& c, const Vec
   return std::min({point_to_segment(a, c, d), point_to_segment(b, c, d), point_to_segment(c, a, b), point_to_segment(d, a, b)});
 }
 
-/// Distance of two triangles that have no common point; a flat one counts as its edges.
+/// Returns the distance of two triangles that have no common point. A flat triangle is represented by its edges.
 double triangle_to_triangle(const std::array<Vec3, 3>& p, const Vec3& p_normal, const std::array<Vec3, 3>& q, const Vec3& q_normal) {
   double least = std::numeric_limits<double>::infinity();
   for (std::size_t i = 0; i < 3; ++i) {
@@ -67,7 +67,7 @@ double triangle_to_triangle(const std::array<Vec3, 3>& p, const Vec3& p_normal, 
   }
   const auto above_face = [&](const Vec3& x, const std::array<Vec3, 3>& t, const Vec3& n) {
     for (std::size_t k = 0; k < 3; ++k) {
-      if (dot(cross(t[(k + 1) % 3] - t[k], x - t[k]), n) <= 0.0) return;  // also for n = 0
+      if (dot(cross(t[(k + 1) % 3] - t[k], x - t[k]), n) <= 0.0) return;  // the condition is also true for n = 0
     }
     least = std::min(least, std::abs(dot(x - t[0], n)));
   };
@@ -111,7 +111,7 @@ class Inspector {
     for (const Vec3& p : boundary.points) largest_coordinate_ = std::max({largest_coordinate_, std::abs(p.x), std::abs(p.y), std::abs(p.z)});
   }
 
-  /// The triangle's box, widened by the largest distance that can be a gap to it.
+  /// Returns the triangle's box, widened by the largest distance that counts as a gap.
   Box box_of(std::uint32_t t) const {
     Box box;
     for (const Vec3& p : corners(t)) box.add(p);
@@ -149,10 +149,10 @@ class Inspector {
   bool crosses(std::uint32_t a, std::uint32_t b) const {
     return !limits_.is_clear && triangles_cross(boundary_.points, boundary_.triangles[a], boundary_.triangles[b]);
   }
-  /// Returns true if all of q is on one side of p's plane, farther than `margin`.
+  /// Returns true if q lies entirely on one side of p's plane, farther from it than `margin`.
   static bool is_apart(const std::array<Vec3, 3>& p, const Vec3& normal, const std::array<Vec3, 3>& q, double margin) {
     const double d0 = dot(q[0] - p[0], normal), d1 = dot(q[1] - p[0], normal), d2 = dot(q[2] - p[0], normal);
-    return std::min({d0, d1, d2}) > margin || std::max({d0, d1, d2}) < -margin;  // never for a flat p: its normal is zero
+    return std::min({d0, d1, d2}) > margin || std::max({d0, d1, d2}) < -margin;  // this is never true for a flat p, because its normal is zero
   }
 
   void inspect_strangers(std::uint32_t a, std::uint32_t b, Findings& findings) const {
@@ -170,7 +170,8 @@ class Inspector {
     if (crosses(a, b)) return findings.add(Trouble::crossing, a, b, 0.0);
     const Vec3 &n = shapes_[a].normal, &m = shapes_[b].normal;
     if (norm2(n) == 0.0 || norm2(m) == 0.0) return;
-    const double angle = std::atan2(norm(cross(n, m)), -dot(n, m));  // for consistently oriented triangles: pi if flat, 0 if back to back
+    // For consistently oriented triangles the angle is pi if they are flat, and 0 if they lie back to back.
+    const double angle = std::atan2(norm(cross(n, m)), -dot(n, m));
     if (angle < limits_.fold_angle) findings.add(Trouble::folded, a, b, angle);
   }
 

@@ -1,5 +1,5 @@
-// Separation: the corners of tetrahedra at a point with two sides are joined over faces that do not belong to the sheet; each joined set lies on one side, and
-// a face of the sheet identifies the side.
+// Separation of both sides: at a point with two sides, the corners of tetrahedra are joined across faces that do not belong to the sheet. Each joined set lies
+// on one side, and a face of the sheet identifies the side.
 
 #include "volmesh/tetra/sheets.h"
 
@@ -41,13 +41,13 @@ struct SortedFace {
   }
 };
 
-/// Returns the number of each point's location, in order of their first points.
+/// Returns a number for the location of each point, in the order of the first points at the locations.
 std::vector<std::uint32_t> number_places(const TetraBoundary& boundary, JoinedBoundary& joined) {
   std::vector<std::uint32_t> order(boundary.points.size()), place(boundary.points.size(), k_no_node), first(boundary.points.size());
   std::iota(order.begin(), order.end(), 0u);
   const auto key = [&](std::uint32_t v) {
     const Vec3& p = boundary.points[v];
-    return std::array{p.x + 0.0, p.y + 0.0, p.z + 0.0};  // + 0.0: -0 and 0 are the same location
+    return std::array{p.x + 0.0, p.y + 0.0, p.z + 0.0};  // adding 0.0 converts -0 to 0, which is the same location
   };
   std::ranges::sort(order, [&](std::uint32_t a, std::uint32_t b) {
     const auto ka = key(a), kb = key(b);
@@ -66,7 +66,7 @@ std::vector<std::uint32_t> number_places(const TetraBoundary& boundary, JoinedBo
       joined.sources.push_back({v, v});
     } else {
       place[v] = place[first[v]];
-      joined.sources[place[v]][1] = v;  // the side is determined later, from the sheets
+      joined.sources[place[v]][1] = v;  // the side is determined later from the sheets
     }
   }
   return place;
@@ -82,7 +82,7 @@ JoinedBoundary join_sheets(const TetraBoundary& boundary, const RunContext& cont
   const std::vector<std::uint32_t> place = number_places(boundary, joined);
   context.check_stop();
 
-  // Candidates have a twin or a boundary vertex of the sheet at each corner: only they can lie back to back.
+  // Only triangles whose corners each have a twin or are border vertices of the sheet can lie back to back.
   struct Candidate {
     SortedFace face;
     std::uint32_t triangle;
@@ -116,7 +116,7 @@ JoinedBoundary join_sheets(const TetraBoundary& boundary, const RunContext& cont
   };
   for (std::uint32_t t = 0; t < boundary.triangles.size(); ++t)
     if (!is_sheet[t]) add(t);
-  // The first side of a sheet is that of the patch that comes first; the same holds for its points.
+  // The first side of a sheet is that of the patch that comes first. The same holds for the points of the side.
   std::vector<std::uint8_t> is_known(joined.points.size(), 0);
   for (const auto& [front, back] : sides) {
     add(front);
@@ -143,12 +143,12 @@ JoinedBoundary join_sheets(const TetraBoundary& boundary, const RunContext& cont
 
 namespace {
 
-/// Corners of tetrahedra at points with two sides, numbered 4 * index in the list + corner, joined over faces.
+/// Corners of tetrahedra at points with two sides, joined across faces. A corner has the number 4 * index in the list + corner.
 class Sides {
  public:
   explicit Sides(std::size_t n_tets) : sets_(4 * n_tets), side_(4 * n_tets, 0) {}
   void join(std::uint32_t a, std::uint32_t b) { sets_.join(a, b); }
-  /// Only after all corners were joined. `side` 1: first, 2: second.
+  /// \pre all corners have been joined. \p side 1: first side, 2: second side
   void mark(std::uint32_t a, std::uint8_t side) { side_[sets_.root(a)] |= side; }
   std::uint8_t side(std::uint32_t a) { return side_[sets_.root(a)]; }
 
@@ -157,7 +157,7 @@ class Sides {
   std::vector<std::uint8_t> side_;
 };
 
-/// SIDS faces of a tetrahedron, normals outwards.
+/// Faces of a tetrahedron in SIDS (CGNS) order, with normals outwards.
 constexpr std::array<std::array<std::uint8_t, 3>, 4> k_sheet_tet_faces = {{{0, 2, 1}, {0, 1, 3}, {1, 2, 3}, {2, 0, 3}}};
 
 }  // namespace
@@ -171,7 +171,7 @@ void part_sheets(const TetraBoundary& boundary, const JoinedBoundary& joined, Te
 
   struct Entry {
     SortedFace face;
-    std::uint32_t tet;  ///< index in `tets`, or k_no_node: a triangle of a sheet
+    std::uint32_t tet;  ///< index in `tets`; k_no_node: the entry is a triangle of a sheet
     bool operator<(const Entry& b) const { return face.corners != b.face.corners ? face.corners < b.face.corners : tet < b.tet; }
   };
   std::vector<Entry> entries;
@@ -202,7 +202,7 @@ void part_sheets(const TetraBoundary& boundary, const JoinedBoundary& joined, Te
   for_each_face([&](std::span<const Entry> same) {
     if (same.back().tet != k_no_node) return;
     for (const Entry& e : same.first(same.size() - 1)) {
-      // Seen from the tetrahedron on the first side, the outward face is the sheet's triangle with reversed orientation.
+      // For the tetrahedron on the first side, the outward face is the sheet's triangle with reversed orientation.
       const std::uint8_t side = e.face.is_odd != same.back().face.is_odd ? 1 : 2;
       for (const std::uint32_t v : e.face.corners)
         if (has_sides(v)) sides.mark(corner(e.tet, v), side);

@@ -1,8 +1,9 @@
-// The octree of a size field. Steps: collect sites from boundary and samples; refine level by level, every cell of a level in parallel, until no leaf is longer
-// than allowed by the size at its centre; compute values at the corners; pack.
+// The octree of a size field. Steps: collect sites from boundary and samples; refine level by level until no leaf is longer than the size at its centre allows,
+// with all cells of a level in parallel; compute values at the corners; pack.
 //
-// No source is missed, however small: within a cell of edge e it lies at most e sqrt(3)/2 from the centre, where it requests at most its size + slope e
-// sqrt(3)/2; the cell is split as long as that is below e / k_edge_over_size, and k_edge_over_size is lowered for steep slopes.
+// No source is missed, however small. Within a cell of edge e the distance of the source from the centre is at most e sqrt(3)/2. At the centre it therefore
+// requires at most its size + slope e sqrt(3)/2. The cell is split as long as that is below e / k_edge_over_size, and k_edge_over_size is lowered for steep
+// slopes.
 
 #include "volmesh/tetra/size_field.h"
 
@@ -18,19 +19,20 @@
 namespace sterna::volmesh {
 namespace {
 
-/// Largest ratio of a leaf's edge to the size at its centre. 2 keeps the number of leaves at about a thirtieth of the tetrahedra; along a plane wall, where
-/// sizes grow linearly, interpolation is exact for any edge.
+/// Largest ratio of a leaf's edge to the size at its centre. With 2 the number of leaves is about a thirtieth of the number of tetrahedra. Along a plane wall,
+/// where sizes grow linearly, interpolation is exact for any edge.
 constexpr double k_edge_over_size = 2.0;
-/// Margin around the boundary's box, as a share of its edge: locations on the boundary are inside the root despite rounding.
+/// Margin around the boundary's box, as a fraction of its edge. With it, locations on the boundary are inside the root despite rounding.
 constexpr double k_margin = 1e-3;
-/// About 1 GB of buffer and a minute of computing; a mesh of half a billion tetrahedra.
+/// Largest number of leaves: about 1 GB of buffer and a minute of computing, for a mesh of half a billion tetrahedra.
 constexpr std::uint64_t k_max_leaves = 1u << 24;
-/// Leaves per task, consecutive along a space-filling curve: a compact block, so that leaves share most of their corners within it.
+/// Number of leaves per task. The leaves of a task are consecutive along a space-filling curve and form a compact block, in which they share most of their
+/// corners.
 constexpr std::size_t k_leaf_chunk = 1024;
 
 struct Octant {
-  std::uint32_t x = 0, y = 0, z = 0;  ///< position in units of its level's edge
-  std::uint32_t hint = 0;             ///< site that was nearest to the parent's centre
+  std::uint32_t x = 0, y = 0, z = 0;  ///< position in units of the edge of its level
+  std::uint32_t hint = 0;             ///< site that was nearest to the centre of the parent
 };
 
 class Builder {
@@ -56,7 +58,7 @@ class Builder {
 
  private:
   static std::vector<SizeSite> sites_of(const TetraBoundary& boundary, std::span<const SizeSource> sources);
-  /// The exact field, before interpolation.
+  /// Returns the exact value of the field, before interpolation.
   double size_at(const Vec3& p, std::uint32_t& hint) const {
     double size = std::min(sites_.smallest(p, hint), largest_);
     for (const SizeSource& source : sources_) size = std::min(size, size_of(source, p, slope_));
@@ -80,13 +82,14 @@ class Builder {
   std::vector<std::uint8_t> leaf_level_;
 };
 
-/// Sites: boundary vertices with the geometric mean of their edges (it favours neither long nor short edges; slivers have no short edge), and the samples.
+/// Returns the sites: boundary vertices with the geometric mean of their edges, and the samples. (The geometric mean favours neither long nor short edges;
+/// slivers have no short edge.)
 std::vector<SizeSite> Builder::sites_of(const TetraBoundary& boundary, std::span<const SizeSource> sources) {
   std::vector<double> logs(boundary.points.size(), 0.0);
   std::vector<std::uint32_t> counts(boundary.points.size(), 0);
   for (const auto& t : boundary.triangles) {
     for (std::size_t k = 0; k < 3; ++k) {
-      // In a closed surface each edge appears once in each direction.
+      // In a closed surface each edge occurs once in each direction.
       const double length = distance(boundary.points[t[k]], boundary.points[t[(k + 1) % 3]]);
       logs[t[k]] += std::log(length);
       ++counts[t[k]];
@@ -101,11 +104,11 @@ std::vector<SizeSite> Builder::sites_of(const TetraBoundary& boundary, std::span
   return sites;
 }
 
-/// Refines the octree. Children of a level follow in the order of their parents, so every level is sorted along the same space-filling curve.
+/// Refines the octree. The children of a level are in the order of their parents, so every level is sorted along the same space-filling curve.
 void Builder::refine() {
   std::vector<Octant> level{Octant{}};
   nodes_.assign(1, 0);
-  std::size_t first = 0;  // node of the level's first octant
+  std::size_t first = 0;  // node of the first octant of the level
   for (int depth = 0; !level.empty(); ++depth) {
     context_.check_stop();
     const double edge = edge_of(depth);
@@ -213,7 +216,7 @@ void require_sane(const TetraBoundary& boundary, std::span<const SizeSource> sou
 
 double SizeField::volume_over_cubes() const {
   const SizeFieldView::Header& header = view_.header();
-  // The buffer layout is described in size_field_view.h.
+  // size_field_view.h describes the layout of the buffer.
   const auto* nodes = reinterpret_cast<const std::uint32_t*>(bytes().data() + sizeof(SizeFieldView::Header));
   const auto* values = reinterpret_cast<const float*>(bytes().data() + sizeof(SizeFieldView::Header) + 8 * ((header.n_nodes + 1) / 2));
   struct Place {

@@ -1,9 +1,9 @@
-// Evaluation of a size field that was built elsewhere: reads a flat buffer, includes no header of sterna, allocates nothing, so that an engine's process can
-// use the memory block as received.
+// Evaluates a size field that was built elsewhere. It reads a flat buffer, includes no header of sterna and allocates nothing, so that the process of an engine
+// can use the memory block as it was received.
 //
-// Buffer, native byte order: Header; n_nodes uint32, padded to a multiple of 8 bytes; 8 floats per leaf.
-// Node: with k_leaf_bit the number of a leaf, otherwise the number of the first of eight consecutive children. Child and corner k lie at the upper end of x, y,
-// z for bits 1, 2, 4 of k. Node 0 is the root: the cube [origin, origin + edge].
+// Layout of the buffer, in native byte order: Header; n_nodes uint32, padded to a multiple of 8 bytes; 8 floats per leaf. A node with k_leaf_bit contains the
+// number of a leaf; other nodes contain the number of the first of eight consecutive children. Bits 1, 2 and 4 of the number k of a child or corner mean the
+// upper end of x, y and z. Node 0 is the root, the cube [origin, origin + edge].
 #pragma once
 
 #include <cstddef>
@@ -23,8 +23,8 @@ class SizeFieldView {
     std::uint64_t n_nodes = 0;
     std::uint64_t n_leaves = 0;
     double origin[3] = {0.0, 0.0, 0.0};  ///< m
-    double edge = 0.0;                   ///< edge of the root, m
-    double smallest = 0.0;               ///< smallest value over all corners, m
+    double edge = 0.0;                   ///< m, edge of the root
+    double smallest = 0.0;               ///< m, smallest value over all corners
     double largest = 0.0;
     double growth = 0.0;  ///< growth limit of the field
   };
@@ -33,7 +33,7 @@ class SizeFieldView {
   static constexpr std::size_t size_bytes(std::uint64_t n_nodes, std::uint64_t n_leaves) { return sizeof(Header) + 8 * ((n_nodes + 1) / 2) + 32 * n_leaves; }
 
   SizeFieldView() = default;
-  /// \pre `data` is aligned to 8 bytes and outlives the view. is_valid() returns true for such a buffer; the nodes themselves are not checked.
+  /// \pre `data` is aligned to 8 bytes and outlives the view. If it contains such a buffer, is_valid() returns true; the nodes themselves are not checked.
   SizeFieldView(const std::byte* data, std::size_t size) {
     if (size < sizeof(Header)) return;
     Header header;
@@ -49,8 +49,9 @@ class SizeFieldView {
   bool is_valid() const { return nodes_ != nullptr; }
   const Header& header() const { return header_; }
 
-  /// Returns the target edge length at a location, both in metres; outside the root cube, that of the nearest point of the cube. Positive.
-  /// \pre is_valid(), coordinates finite.
+  /// Returns the target edge length at a location, both in metres. Outside of the root cube, returns the value at the nearest point of the cube. The result is
+  /// positive.
+  /// \pre is_valid(), and the coordinates are finite
   double operator()(double x, double y, double z) const {
     constexpr double k_steps = 1 << k_max_depth;
     const double u[3] = {place(x, 0), place(y, 1), place(z, 2)};
@@ -72,7 +73,7 @@ class SizeFieldView {
   }
 
  private:
-  /// Position in the root cube as a share of its edge, in [0, 1).
+  /// Returns the position in the root cube as a fraction of its edge, in [0, 1).
   double place(double x, int axis) const {
     constexpr double k_below_one = 1.0 - 0x1p-40;
     const double u = (x - header_.origin[axis]) * inverse_edge_;

@@ -32,7 +32,7 @@ SizeField SizeSupply::with(const SizeSource& samples, const TetraBoundary& bound
   sources.push_back(samples);
   SizeFieldOptions options = options_;
   if (!making_) {
-    // The original sources are not known here: the given field is evaluated at the samples.
+    // The original sources are not known here, so the given field is evaluated at the samples.
     options.size_growth = field.view().header().growth;
     SizeSource& own = sources.back();
     for (std::size_t i = 0; i < own.points.size(); ++i) own.sizes[i] = std::min(own.sizes[i], field(own.points[i]));

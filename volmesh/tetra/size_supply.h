@@ -12,10 +12,10 @@ namespace sterna::volmesh {
 
 class SizeSupply {
  public:
-  /// A finished field. `field` must outlive this object.
+  /// Uses a finished field. `field` must outlive this object.
   explicit SizeSupply(const SizeField& field) : field_(&field) {}
-  /// Starts building a field (build_size_field) in parallel to the caller; boundary and sources must outlive this object.
-  /// \p judge: checks the finished field, and may throw: get() rethrows
+  /// Starts to build a field (build_size_field) in parallel to the caller. Boundary and sources must outlive this object. \p judge checks the finished field;
+  /// if it throws, get() rethrows the error
   SizeSupply(const TetraBoundary& boundary, std::span<const SizeSource> sources, const SizeFieldOptions& options, const RunContext& context,
              std::function<void(const SizeField&, const RunContext&)> judge = {});
 
@@ -23,17 +23,17 @@ class SizeSupply {
   /// Thread-safe.
   void wait() const;
   /// Waits for the field and returns it.
-  /// \throws the errors of build_size_field().
+  /// \throws the errors of build_size_field()
   const SizeField& get();
-  /// Returns a field that also includes these sizes, where they are smaller; sizes grow as in this field. Waits, throws as get() does.
+  /// Returns a field that also contains these sizes where they are smaller. Sizes grow as in this field. Waits and throws like get().
   SizeField with(const SizeSource& samples, const TetraBoundary& boundary, const RunContext& context);
 
  private:
   const SizeField* field_ = nullptr;
-  std::span<const SizeSource> sources_;  ///< sources of the field built here
+  std::span<const SizeSource> sources_;  ///< sources of the field that is built here
   SizeFieldOptions options_;
   std::optional<SizeField> made_;
-  std::optional<Alongside<SizeField>> making_;  ///< last member: ends first
+  std::optional<Alongside<SizeField>> making_;  ///< must be the last member, because it must end first
 };
 
 }  // namespace sterna::volmesh

@@ -1,22 +1,23 @@
-// sterna-tet-tetgen: one call of TetGen in a separate process. Reads the request from file descriptor 3, writes the reply to 4 (wire.h).
+// sterna-tet-tetgen: one call of TetGen in a separate process. Reads the request from file descriptor 3, and writes the reply to file descriptor 4 (wire.h).
 //
-// Reasons for the process: TetGen's licence (AGPL), its crashes on unsuitable input, its memory, and symbols that it shares with libgmsh. Its output goes to
-// the parent through stdout and stderr. The process never outlives its parent.
+// A separate process is used because of TetGen's licence (AGPL), its crashes on unsuitable input, its memory, and symbols that it shares with libgmsh. Its
+// output goes to the parent process through stdout and stderr. The process never outlives its parent.
 //
 // Known properties of TetGen 1.5.0 as built by Debian (all measured):
-// - Its vertices must be farther apart than -T (default 1e-8) of the longest side of the box, which the farfield makes long; closer vertices are merged, and
-//   then it crashes. -M disables the merging: slabs of 1e-12 and wedges of 1e-8 radians in a box of 100 pass with it and crash without.
-// - With -Y the boundary stays unchanged, triangle for triangle, on nearly everything tried so far. Around slivers and folds, some of the points that it
-//   temporarily inserts on edges may stay there (asb_talon: one, which splits two triangles of 31 000); without -F the faces of the result show where.
-// - Self-intersecting, duplicate or degenerate facets make it crash, or return a result with facets missing; it rarely reports them.
-// - An open boundary gives 0 tetrahedra and no error; an index out of range is read without a check.
-// - Points that it adds and removes again during boundary recovery are omitted from the result, but not with -J (pygeo_bwb).
-// - A tetunsuitable callback is called for every tetrahedron, and its result is used; its volume argument is meaningless.
-// - Without -Y it splits boundary triangles; each face of the result has the marker of its source facet. Even without -q it splits thousands on an envelope of
-//   bodies (pygeo_bwb: 2671 of 4964; with -q1.2 all of them, 24 parts each): edges must be Delaunay then. With -Y, points in the volume ensure this.
-// - -q with -Y next to strips of triangles that are 2000 times longer than wide does not terminate: every new point's cavity holds thousands of points, and the
-//   point is rejected because it encroaches upon the boundary (NACA0012).
-// - Its tetrahedra are positive in CGNS order; two runs are bit-identical.
+// - The distance of its vertices must be more than -T (default 1e-8) of the longest side of the box, which the farfield makes long. Nearer vertices are merged,
+//   and TetGen then crashes. -M disables the merging. Slabs of 1e-12 and wedges of 1e-8 radians in a box of 100 are meshed with -M, and crash without it.
+// - With -Y the boundary stays unchanged, triangle for triangle, in nearly all tests so far. Around slivers and folds, some of the points that it temporarily
+//   inserts on edges may stay there (asb_talon: one point, which splits two of 31 000 triangles). Without -F the faces of the result show the locations.
+// - Self-intersecting, duplicate or degenerate facets make it crash or return a result without some facets. It rarely reports such facets.
+// - An open boundary gives 0 tetrahedra and no error. An index out of range is read without a check.
+// - Points that it adds and removes again during boundary recovery are not in the result, but with -J they are (pygeo_bwb).
+// - A tetunsuitable callback is called for every tetrahedron, and its result is used. Its volume argument has no meaning.
+// - Without -Y it splits boundary triangles, and each face of the result has the marker of its source facet. Even without -q it splits thousands of triangles
+//   on an envelope of bodies, because edges must then be Delaunay (pygeo_bwb: 2671 of 4964 triangles; with -q1.2 all of them, into 24 parts each). With -Y,
+//   points in the volume ensure that edges are Delaunay.
+// - With -q and -Y it does not terminate next to strips of triangles that are 2000 times longer than wide. The cavity of every new point contains thousands of
+//   points, and the point is rejected because it encroaches upon the boundary (NACA0012).
+// - Its tetrahedra are positive in CGNS order. Two runs are bit-identical.
 
 #include <tetgen.h>
 #include <array>
@@ -34,7 +35,7 @@ namespace {
 using namespace sterna::volmesh;
 using helper::Request;
 
-/// A closed surface in the request or in a result of TetGen.
+/// A closed surface in the request, or in a result of TetGen.
 struct Surface {
   double* points = nullptr;
   std::size_t n_points = 0;
@@ -42,13 +43,13 @@ struct Surface {
   std::size_t n_triangles = 0;
 };
 
-/// Facets of one triangle each, made in bulk; the vertex lists point into the surface.
+/// Facets of one triangle each, made in bulk. The vertex lists point into the surface.
 struct Facets {
   explicit Facets(const Surface& surface) : polygons(surface.n_triangles), facets(surface.n_triangles), markers(surface.n_triangles) {
     for (std::size_t t = 0; t < facets.size(); ++t) {
       polygons[t] = {surface.triangles + 3 * t, 3};
       facets[t] = {&polygons[t], 1, nullptr, 0};
-      markers[t] = static_cast<int>(t) + 1;  // 1-based boundary triangle: TetGen's messages use this number
+      markers[t] = static_cast<int>(t) + 1;  // number of the boundary triangle, counted from 1, which TetGen uses in its messages
     }
   }
   std::vector<tetgenio::polygon> polygons;
@@ -56,7 +57,7 @@ struct Facets {
   std::vector<int> markers;
 };
 
-/// The input borrows all its arrays; the pointers must be reset before tetgenio's destructor would delete the arrays.
+/// All arrays of the input are borrowed. The pointers must be reset before the destructor of tetgenio would delete the arrays.
 struct BorrowedInput {
   BorrowedInput(const Request& request, const Surface& surface, Facets& facets) {
     io.firstnumber = 0;
@@ -72,11 +73,11 @@ struct BorrowedInput {
   tetgenio io;
 };
 
-/// A tetrahedron is split if its circumradius over the target edge length exceeds this value: then the geometric mean of the edges is the target length
-/// (measured in a field of constant size). A regular tetrahedron of that length has 0.61.
+/// A tetrahedron is split if the ratio of its circumradius to the target edge length exceeds this value. The geometric mean of the edges is then the target
+/// length (measured in a field of constant size). For a regular tetrahedron of that length the ratio is 0.61.
 constexpr double k_radius_limit = 1.1 / 1.46;
 
-/// Data for TetGen's callback, which has no user argument; set once, before TetGen runs.
+/// Data for TetGen's callback, which has no user argument. It is set once, before TetGen runs.
 helper::LateSizes*& sizes_of_callback() {
   static helper::LateSizes* sizes = nullptr;
   return sizes;
@@ -105,8 +106,8 @@ bool is_too_large(double* a, double* b, double* c, double* d, double*, double) {
   return circumradius(a, b, c, d) > k_radius_limit * wanted;
 }
 
-/// -p boundary, -q<ratio> quality, -Y keep the boundary, -M merge nothing (every edge of the boundary stays a single edge), -F write no faces, -Q quiet, -T
-/// tolerance below the rounding error of the box's size: never report a feature as too small (error 4).
+/// Switches: -p boundary, -q<ratio> quality, -Y keep the boundary, -M merge nothing (every edge of the boundary stays a single edge), -F write no faces, -Q
+/// quiet, -T tolerance. The tolerance is below the rounding error of the box's size, so that TetGen never reports a feature as too small (error 4).
 std::string switches(const char* format, double radius_edge) {
   char text[64];
   std::snprintf(text, sizeof text, format, radius_edge);
@@ -152,7 +153,7 @@ void tetrahedralize_surface(const Request& request, const Surface& surface, std:
   tetrahedralize(text.data(), &in.io, &out);
 }
 
-/// Runs TetGen once or twice, and replies: with splits for recovery, the first run splits the boundary where necessary, and the second run keeps the split
+/// Runs TetGen once or twice, and replies. With splits for recovery, the first run splits the boundary where necessary, and the second run keeps the split
 /// boundary.
 [[noreturn]] void mesh(const Request& request, const helper::Stopwatch& watch) {
   const Surface whole{request.points, request.header->n_points, request.triangles, request.header->n_triangles};
@@ -190,7 +191,7 @@ int run(const Request& request) {
   try {
     mesh(request, watch);
   } catch (int code) {
-    // 1 is TetGen's "out of memory"; see terminatetetgen() in tetgen.h.
+    // Code 1 is TetGen's "out of memory" (see terminatetetgen() in tetgen.h).
     return helper::reply_failure(code == 1 ? wire::Outcome::out_of_memory : wire::Outcome::engine_code, code, watch.seconds());
   } catch (const std::bad_alloc&) {
     return helper::reply_failure(wire::Outcome::out_of_memory, 0, watch.seconds());

@@ -7,7 +7,7 @@
 namespace sterna::volmesh {
 namespace {
 
-constexpr int k_sweeps = 10;  ///< distance in edges over which boundary sizes affect the volume
+constexpr int k_sweeps = 10;  ///< number of smoothing sweeps: the distance in edges over which boundary sizes affect the volume
 constexpr double k_relaxation = 0.5;
 
 }  // namespace

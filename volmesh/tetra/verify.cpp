@@ -1,6 +1,6 @@
-// Faces are matched by vertex numbers without a global sort. They are distributed into buckets by their lowest vertex (counting, then scattering; both in fixed
-// chunks), then each bucket is distributed in cache to its vertices in the same way, and the two dozen faces of a vertex are sorted and compared. A boundary
-// triangle takes part as the face of an outside cell.
+// Faces are matched by vertex numbers without a global sort. They are distributed into buckets by their lowest vertex, by counting and then scattering, both in
+// fixed chunks. Each bucket fits into the cache and is distributed to its vertices in the same way. Then the two dozen faces of each vertex are sorted and
+// compared. A boundary triangle takes part as the face of an outside cell.
 
 #include "volmesh/tetra/verify.h"
 
@@ -17,9 +17,9 @@
 namespace sterna::volmesh {
 namespace {
 
-constexpr std::size_t k_owner_limit = std::size_t{1} << 29;  ///< owner, face and orientation of a face share 32 bits
-constexpr std::size_t k_owner_chunk = 1 << 14;               ///< owners per chunk
-constexpr std::size_t k_bucket_owners = 1 << 12;             ///< mean owners per bucket: 16 k faces, 256 kB, stay in the second-level cache
+constexpr std::size_t k_owner_limit = std::size_t{1} << 29;  ///< limit, because owner, face and orientation of a face share 32 bits
+constexpr std::size_t k_owner_chunk = 1 << 14;               ///< number of owners per chunk
+constexpr std::size_t k_bucket_owners = 1 << 12;             ///< mean number of owners per bucket: 16 000 faces, or 256 kB, fit into the second-level cache
 constexpr std::size_t k_most_buckets = 4096;
 constexpr std::size_t k_buckets_per_task = 4;
 constexpr std::size_t k_places_kept = 1000;
@@ -31,7 +31,7 @@ constexpr std::array<const char*, 6> k_fault_text = {
 
 struct Defect {
   Fault fault;
-  std::size_t owner;  ///< tetrahedron, or number of tetrahedra + boundary triangle
+  std::size_t owner;  ///< number of the tetrahedron, or number of tetrahedra + boundary triangle
   int face = 0;
 };
 
@@ -62,10 +62,10 @@ struct Nodes {
   const Vec3& operator[](std::size_t i) const { return i < n_boundary ? boundary.points[i] : result.new_points[i - n_boundary]; }
 };
 
-/// SIDS faces of a tetrahedron, normals outwards.
+/// Faces of a tetrahedron in SIDS (CGNS) order, with normals outwards.
 constexpr std::array<std::array<std::uint8_t, 3>, 4> k_tet_faces = {{{0, 2, 1}, {0, 1, 3}, {1, 2, 3}, {2, 0, 3}}};
 
-/// The owners of faces: tetrahedra first, then boundary triangles, whose normals point into the domain, hence out of "their" cell.
+/// Owners of faces: tetrahedra first, then boundary triangles. The normals of boundary triangles point into the domain, that is, out of "their" cell.
 struct Owners {
   const TetraBoundary& boundary;
   const TetraResult& result;
@@ -81,7 +81,7 @@ struct Owners {
   int n_faces(std::size_t owner) const { return is_boundary(owner) ? 1 : 4; }
 };
 
-/// A face with sorted vertices low < middle < high; `tag` = owner << 3 | face << 1 | odd permutation.
+/// A face with sorted vertices low < middle < high. `tag` is owner << 3 | face << 1 | 1 for an odd permutation.
 struct FaceEntry {
   std::uint64_t low_middle;
   std::uint64_t high_tag;
@@ -106,10 +106,10 @@ FaceEntry make_entry(std::array<std::uint32_t, 3> v, std::size_t owner, int face
   return {std::uint64_t{v[0]} << 32 | v[1], std::uint64_t{v[2]} << 32 | owner << 3 | static_cast<std::uint64_t>(face) << 1 | odd};
 }
 
-/// The faces of all owners, bucket after bucket; a bucket holds all faces whose lowest vertex lies in its range.
+/// The faces of all owners, bucket after bucket. A bucket contains all faces whose lowest vertex lies in its range.
 struct FaceBuckets {
   std::vector<FaceEntry> entries;
-  std::vector<std::size_t> first;  ///< start of each bucket, and the end
+  std::vector<std::size_t> first;  ///< start of each bucket, and the end of the last
   std::size_t nodes_per_bucket = 1;
   std::span<const FaceEntry> bucket(std::size_t i) const { return {entries.data() + first[i], first[i + 1] - first[i]}; }
 };
@@ -125,7 +125,7 @@ FaceBuckets throw_into_buckets(const Owners& owners, std::size_t n_nodes, const 
     }
   };
 
-  std::vector<std::size_t> place(n_chunks * n_buckets, 0);  // first counts, then the next free position of a chunk in a bucket
+  std::vector<std::size_t> place(n_chunks * n_buckets, 0);  // first the counts, then the next free position of each chunk in each bucket
   parallel_chunks(context, owners.size(), k_owner_chunk, [&](std::size_t begin, std::size_t end) {
     std::size_t* count = place.data() + begin / k_owner_chunk * n_buckets;
     for_faces(begin, end, [&](const FaceEntry& e) { ++count[bucket_of(e)]; });
@@ -147,7 +147,7 @@ FaceBuckets throw_into_buckets(const Owners& owners, std::size_t n_nodes, const 
   return buckets;
 }
 
-/// Checks the faces [begin, end) that have the same vertices.
+/// Checks the faces [begin, end), which have the same vertices.
 void judge_group(const Owners& owners, const FaceEntry* begin, const FaceEntry* end, Defects& findings) {
   const auto find = [&](Fault fault, const FaceEntry& e) { findings.add({fault, e.owner(), e.face()}); };
   const bool first_is_boundary = owners.is_boundary(begin->owner());
@@ -158,23 +158,23 @@ void judge_group(const Owners& owners, const FaceEntry* begin, const FaceEntry* 
   } else if (begin->is_odd() == begin[1].is_odd()) {
     find(Fault::same_sense, *begin);
   } else if (first_is_boundary) {
-    find(Fault::missing_boundary, *begin);  // two boundary triangles back to back; neither has a tetrahedron
+    find(Fault::missing_boundary, *begin);  // two boundary triangles lie back to back, and neither has a tetrahedron
   }
 }
 
-/// Sorts buckets; its memory is reused for the next bucket.
+/// Sorts buckets. Its memory is reused for the next bucket.
 class BucketSorter {
  public:
   explicit BucketSorter(std::size_t nodes_per_bucket) : first_(nodes_per_bucket + 1) {}
 
-  /// Returns the bucket's faces in a total order, with faces of the same vertices adjacent.
+  /// Returns the faces of the bucket in a total order, in which faces with the same vertices are adjacent.
   std::span<const FaceEntry> sorted(std::span<const FaceEntry> bucket, std::size_t first_node) {
     std::ranges::fill(first_, 0);
     for (const FaceEntry& e : bucket) ++first_[(e.low_middle >> 32) - first_node + 1];
     std::partial_sum(first_.begin(), first_.end(), first_.begin());
     entries_.resize(bucket.size());
     for (const FaceEntry& e : bucket) entries_[first_[(e.low_middle >> 32) - first_node]++] = e;
-    // Each first_[i] has advanced to the end of its vertex's faces.
+    // Each first_[i] now points to the end of the faces of its vertex.
     std::size_t begin = 0;
     for (std::size_t i = 0; i + 1 < first_.size(); ++i) {
       std::sort(entries_.begin() + static_cast<std::ptrdiff_t>(begin), entries_.begin() + static_cast<std::ptrdiff_t>(first_[i]));
