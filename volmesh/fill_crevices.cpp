@@ -2,8 +2,6 @@
 // wall (Filler::result); again on the new wall until nothing becomes solid.
 #include "volmesh/fill_crevices.h"
 
-#include <fmt/format.h>
-
 #include <algorithm>
 #include <array>
 #include <cmath>
@@ -13,6 +11,7 @@
 
 #include "geom/base/disjoint_sets.h"
 #include "geom/base/error.h"
+#include "geom/base/number_text.h"
 #include "geom/base/sort_unique.h"
 #include "geom/mesh/bvh.h"
 #include "geom/tets/recover.h"
@@ -79,7 +78,7 @@ class Filler {
     }
     throw Error({.code = ErrorCode::geometry_failed,
                  .attempted = "filling crevices",
-                 .problem = fmt::format("tetrahedra still become solid after {} rounds", k_most_rounds),
+                 .problem = "tetrahedra still become solid after " + std::to_string(k_most_rounds) + " rounds",
                  .hint = "use a smaller width"});
   }
 
@@ -139,7 +138,7 @@ class Filler {
       if (is_wall_node_[v.index()] && norm(fluid_.points[v.index()] - wall_.points[v]) > k_same_place * length)
         throw Error({.code = ErrorCode::internal,
                      .attempted = "filling crevices",
-                     .problem = fmt::format("vertex {} of the wall is not at its place in the mesh of the fluid", v.value()),
+                     .problem = "vertex " + std::to_string(v.value()) + " of the wall is not at its place in the mesh of the fluid",
                      .hint = "report this surface"});
   }
 
@@ -515,7 +514,7 @@ CreviceResult fill_crevices(const TriMesh& wall, const CreviceOptions& options, 
   if (!(options.width > 0.0))
     throw Error({.code = ErrorCode::bad_argument,
                  .attempted = "filling crevices",
-                 .problem = fmt::format("the width {} m is not positive", options.width),
+                 .problem = is_automatic(options.width) ? std::string("no width is given") : "the width " + in_metres(options.width) + " is not positive",
                  .hint = "give the largest distance between facing walls that is filled, for example width = 0.02"});
   const TriangleTree given(wall, context);
   CreviceResult result{.wall = wall, .report = {}};
@@ -540,9 +539,11 @@ std::vector<std::string> to_lines(const CreviceReport& report, std::size_t n) {
     if (lines.size() == n) break;
     std::string names;
     for (const std::string& name : crevice.patches) names += (names.empty() ? "" : ", ") + name;
-    lines.push_back(
-        fmt::format("({:.6g}, {:.6g}, {:.6g}): {} tetrahedra, {:.3g} m^3, up to {:.3g} m wide, new triangles at most {:.3g} m from the given wall, between {}",
-                    crevice.place.x, crevice.place.y, crevice.place.z, crevice.n_tetrahedra, crevice.volume, crevice.width, crevice.distance, names));
+    constexpr int k_digits = 3;
+    lines.push_back(format_point(crevice.place) + ": " + std::to_string(crevice.n_tetrahedra) +
+                    (crevice.n_tetrahedra == 1 ? " tetrahedron, " : " tetrahedra, ") + number_text(crevice.volume, k_digits) + " m^3, up to " +
+                    in_metres(crevice.width, k_digits) + " wide, new triangles at most " + in_metres(crevice.distance, k_digits) +
+                    " from the given wall, between " + names);
   }
   return lines;
 }

@@ -43,11 +43,11 @@ struct CreviceResult {
   CreviceReport report;
 };
 
-/// Fills crevices and gaps. The fluid beside the wall is divided into tetrahedra whose nodes are the points of its boundary (geom/tets/recover.h). A tetrahedron
-/// becomes solid if all of this holds: its nodes are on walls; its thickness (smallest of its heights and of the distances between opposite edges) is at most
-/// `width`; two triangles at its nodes face each other, and no node of the tetrahedron is farther in front of either than `width`. Triangles face each other if
-/// their normals enclose more than pi - `angle` and one lies over the other, along its normal and within `width`. Faces between solid and fluid tetrahedra
-/// become wall triangles, with the patch of the wall nearest through the solid tetrahedra. This is repeated on the new wall until nothing changes.
+/// Fills crevices and gaps. The fluid beside the wall is divided into tetrahedra whose nodes are the points of its boundary (geom/tets/recover.h). A
+/// tetrahedron becomes solid if all of this holds: its nodes are on walls; its thickness (smallest of its heights and of the distances between opposite edges)
+/// is at most `width`; two triangles at its nodes face each other, and no node of the tetrahedron is farther in front of either than `width`. Triangles face
+/// each other if their normals enclose more than pi - `angle` and one lies over the other, along its normal and within `width`. Faces between solid and fluid
+/// tetrahedra become wall triangles, with the patch of the wall nearest through the solid tetrahedra. This is repeated on the new wall until nothing changes.
 /// \pre manifold, oriented, without self-intersection; closed, or open along boundaries in planes
 /// \post the same; no vertex of the wall has moved; the wall is unchanged if nothing is filled
 /// \throws Error(bad_argument) for a width that is not positive; geometry_failed if the fluid cannot be divided; the errors of complete_boundary()

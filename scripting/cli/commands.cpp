@@ -252,12 +252,8 @@ void halve(const MeshCommand& command, SurfaceValue& wall, const CommandContext&
 
 /// With --fill-crevices: fills crevices of the surface that gets the layers.
 void fill_wall(const MeshCommand& command, SurfaceValue& wall, const CommandContext& context) {
-  if (command.crevices.empty()) return;
   volmesh::CreviceOptions options;
   set_options(sterna::options_of(options), command.crevices, context);
-  if (is_automatic(options.width))
-    throw Error(
-        {.code = ErrorCode::bad_argument, .attempted = "option " + command.crevices.front().first, .problem = "is given without --fill-crevices WIDTH"});
   wall = filled_crevices(wall, options, context.run);
 }
 
@@ -400,7 +396,7 @@ MeshValue make_mesh_of_models(const MeshCommand& command, const std::vector<Inpu
                                       : mesh_model_files(inputs, reading, recipe, surface_part, reuse, volume_options.periodic);
   remesh_wall(command, volume_options, wall, reuse, context);
   halve(command, wall, context);
-  fill_wall(command, wall, context);
+  if (!command.crevices.empty()) fill_wall(command, wall, context);
   read_farfield_of(volume_options, wall, context.run);
   add_sources(command, wall.mesh, volume_options);
   return fill(command, std::move(wall), volume_options, k_surface_end, reuse, context);
@@ -432,7 +428,7 @@ MeshValue make_mesh(const MeshCommand& command, const Reuse& reuse, const Comman
   SurfaceValue wall = wall_of(command, inputs, asked, reuse, context);
   remesh_wall(command, volume_options, wall, reuse, context);
   halve(command, wall, context);
-  fill_wall(command, wall, context);
+  if (!command.crevices.empty()) fill_wall(command, wall, context);
   read_farfield_of(volume_options, wall, context.run);
   add_sources(command, wall.mesh, volume_options);
   return fill(command, std::move(wall), volume_options, k_read_end, reuse, context);

@@ -178,8 +178,7 @@ TEST_F(AutoSurfaceTest, SmoothBodyIsNotDentedForItsBudget) {
   EXPECT_THAT(result.output + result.errors, AllOf(HasSubstr("the triangles are kept"), Not(HasSubstr("changed: remeshed"))));
   const test::ProcessResult free = sterna({"surface", "car.off", "--auto", "-o", "new.off"});
   // With enough triangles the distance is the criterion: over new edges it is 0.255, above the limit of 0.2.
-  EXPECT_THAT(free.output + free.errors,
-              AllOf(HasSubstr("of their edges from the input triangles, the limit is 0.2"), HasSubstr("the triangles are kept")))
+  EXPECT_THAT(free.output + free.errors, AllOf(HasSubstr("of their edges from the input triangles, the limit is 0.2"), HasSubstr("the triangles are kept")))
       << free.errors;
 }
 

@@ -125,7 +125,7 @@ TEST(FillCrevices, GapThatConnectsFluidStaysOpen) {
 
 TEST(FillCrevices, WidthMustBePositive) {
   test::expect_error(ErrorCode::bad_argument, "is not positive", [] { (void)fill_crevices(test::cube(), {.width = 0.0}, k_context); });
-  test::expect_error(ErrorCode::bad_argument, "is not positive", [] { (void)fill_crevices(test::cube(), {}, k_context); });
+  test::expect_error(ErrorCode::bad_argument, "no width is given", [] { (void)fill_crevices(test::cube(), {}, k_context); });
 }
 
 }  // namespace
