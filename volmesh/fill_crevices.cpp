@@ -1,12 +1,12 @@
-// Steps: tetrahedra between the points of the boundary (fluid_of), the tetrahedra between walls (Filler), which of them become solid (Filler::fill), the new
-// wall (Filler::result); again on the new wall until nothing becomes solid.
+// Steps: tetrahedra between the points of the boundary (fluid_of), those between walls that face each other (Filler::find_between), which of them become solid
+// (Filler::fill), the new wall (Filler::result).
 #include "volmesh/fill_crevices.h"
 
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <limits>
 #include <map>
-#include <optional>
 #include <set>
 
 #include "geom/base/disjoint_sets.h"
@@ -23,10 +23,12 @@ namespace {
 
 using Face = std::array<std::uint32_t, 3>;
 
-constexpr int k_passes = 5;             ///< largest number of meshes of the fluid
-constexpr double k_repair_width = 2.0;  ///< over the width, for tetrahedra that make the wall manifold
-constexpr int k_most_rounds = 100;      ///< rounds of filling; aircraft need about five
-constexpr double k_same_place = 1e-6;   ///< over the body length: open boundaries were moved at most this far into their plane
+constexpr double k_divided = 0.7;          ///< share of the progress
+constexpr double k_flat = 0.02;            ///< thickness over the width of tetrahedra that are very flat
+constexpr double k_rounding = 1.0 + 1e-9;  ///< a gap as wide as the width is filled
+constexpr int k_careful_rounds = 30;       ///< rounds in which one tetrahedron at each location becomes fluid again; later all there
+constexpr int k_most_rounds = 10000;       ///< rounds of repairs; each but the last changes a tetrahedron for good
+constexpr double k_same_place = 1e-6;      ///< over the body length: open boundaries were moved at most this far into their plane
 constexpr std::uint32_t k_none = tets::k_none;
 
 Face sorted(Face f) {
@@ -64,22 +66,23 @@ class Filler {
       : wall_(wall), given_(given), options_(options), context_(context), fluid_(std::move(fluid)), is_wall_node_(fluid_.points.size(), 0) {
     find_wall();
     require_same_wall();
-    find_thin();
+    find_between();
   }
 
+  /// Makes all tetrahedra between facing walls solid. Then repairs the wall until it is manifold, encloses no fluid, and is near the given wall.
   void fill() {
+    for (std::uint32_t t = 0; t < state_.size(); ++t)
+      if (opening_[t] <= k_rounding * options_.width) state_[t] = State::solid;
     for (int round = 0; round < k_most_rounds; ++round) {
       context_.check_stop();
+      reopen_inner_nodes();
       make_surface();
-      bool is_changed = fill_facing();
-      if (is_changed) make_surface();
-      is_changed = repair_topology() || is_changed;
-      if (!is_changed && !join_enclosed()) return;
+      if (!repair_topology(round < k_careful_rounds) && !join_enclosed() && !reopen_far()) return;
     }
     throw Error({.code = ErrorCode::geometry_failed,
                  .attempted = "filling crevices",
-                 .problem = "tetrahedra still become solid after " + std::to_string(k_most_rounds) + " rounds",
-                 .hint = "use a smaller width"});
+                 .problem = "the wall is not manifold after " + std::to_string(k_most_rounds) + " rounds of repairs",
+                 .hint = "use another width, or remesh the wall"});
   }
 
   CreviceResult result() {
@@ -142,17 +145,20 @@ class Filler {
                      .hint = "report this surface"});
   }
 
-  void find_thin() {
+  void find_between() {
     state_.assign(fluid_.nodes.size(), State::other);
     thickness_.assign(fluid_.nodes.size(), 0.0);
+    opening_.assign(fluid_.nodes.size(), std::numeric_limits<double>::infinity());
     at_node_.resize(wall_.n_vertices());
+    make_surface();
     for (std::uint32_t t = 0; t < fluid_.nodes.size(); ++t) {
       const tets::Corners& n = fluid_.nodes[t];
       for (const std::uint32_t node : n)
         if (node < at_node_.size() && is_wall_node_[node]) at_node_[node].push_back(t);
       if (!std::ranges::all_of(n, [&](std::uint32_t node) { return is_wall_node_[node] != 0; })) continue;
+      state_[t] = State::between;
       thickness_[t] = thickness_of(corners_of(t));
-      state_[t] = thickness_[t] <= options_.width ? State::thin : State::between;
+      if (thickness_[t] <= k_rounding * options_.width) opening_[t] = opening_of(t);
     }
   }
 
@@ -183,8 +189,8 @@ class Filler {
     }
   }
 
-  /// Returns true if the normal of `face` meets a sample of `other` in front of the face, at a distance of at most `width`.
-  bool is_over(const WallFace& face, const WallFace& other, double width) const {
+  /// Returns true if the normal of `face` meets a sample of `other` in front of the face, at a distance of at most the width.
+  bool is_over(const WallFace& face, const WallFace& other) const {
     const auto& [a, b, c] = face.nodes;
     const Vec3 &p = fluid_.points[a], &q = fluid_.points[b], &r = fluid_.points[c];
     const auto is_inside = [&](const Vec3& x) {
@@ -194,63 +200,105 @@ class Filler {
     for (std::size_t i = 0; i < 3; ++i)
       for (const Vec3& sample : {corners[i], 0.5 * (corners[i] + corners[(i + 1) % 3]), other.middle}) {
         const double height = dot(face.normal, sample - face.middle);
-        if (height > 1e-9 * width && height <= width && is_inside(sample)) return true;
+        if (height > 1e-9 * options_.width && height <= k_rounding * options_.width && is_inside(sample)) return true;
       }
     return false;
   }
 
   /// Returns true if two faces face each other across the fluid: one is over the other. Behind a convex edge each face is behind the plane of the other one.
-  bool are_facing(const WallFace& a, const WallFace& b, double width) const {
-    return dot(a.normal, b.normal) < -std::cos(options_.angle) && (is_over(a, b, width) || is_over(b, a, width));
+  bool are_facing(const WallFace& a, const WallFace& b) const {
+    return dot(a.normal, b.normal) < -std::cos(options_.angle) && (is_over(a, b) || is_over(b, a));
   }
 
-  /// Returns true if no corner of the tetrahedron is farther in front of the face than `width`.
-  bool is_near(std::uint32_t t, const WallFace& face, double width) const {
-    return std::ranges::all_of(corners_of(t), [&](const Vec3& corner) { return dot(face.normal, corner - face.middle) <= width; });
+  /// Largest distance of a node of the tetrahedron in front of the face, m.
+  double height_over(const WallFace& face, std::uint32_t t) const {
+    double height = 0.0;
+    for (const Vec3& corner : corners_of(t)) height = std::max(height, dot(face.normal, corner - face.middle));
+    return height;
   }
 
-  bool is_between_facing(std::uint32_t t, double width) const {
+  /// Smallest distance between two facing walls that have the tetrahedron between them, in m: largest distance of its nodes in front of either. Infinite if
+  /// there are none. The walls are triangles of the given wall at the nodes.
+  double opening_of(std::uint32_t t) const {
     const Vec3 middle = middle_of(t);
     std::vector<std::uint32_t> around;
     for (const std::uint32_t node : fluid_.nodes[t])
       for (const std::uint32_t f : faces_at_[node])
-        if (dot(faces_[f].normal, middle - faces_[f].middle) > 0.0 && is_near(t, faces_[f], width)) around.push_back(f);
+        if (dot(faces_[f].normal, middle - faces_[f].middle) > 0.0 && height_over(faces_[f], t) <= k_rounding * options_.width) around.push_back(f);
     sort_unique(around);
+    double opening = std::numeric_limits<double>::infinity();
     for (std::size_t i = 0; i < around.size(); ++i)
-      for (std::size_t j = i + 1; j < around.size(); ++j)
-        if (are_facing(faces_[around[i]], faces_[around[j]], width)) return true;
-    return false;
+      for (std::size_t j = i + 1; j < around.size(); ++j) {
+        const WallFace &a = faces_[around[i]], &b = faces_[around[j]];
+        const double here = std::max(height_over(a, t), height_over(b, t));
+        if (here < opening && are_facing(a, b)) opening = here;
+      }
+    return opening;
   }
 
-  bool fill_facing() {
-    std::vector<std::uint32_t> found;
-    for (std::uint32_t t = 0; t < state_.size(); ++t)
-      if (state_[t] == State::thin && is_between_facing(t, options_.width)) found.push_back(t);
-    for (const std::uint32_t t : found) state_[t] = State::solid;
-    return !found.empty();
+  /// Returns true if a tetrahedron is so flat that it may become solid to make the wall manifold.
+  bool is_repair(std::uint32_t t) const { return state_[t] == State::between && thickness_[t] <= k_flat * options_.width; }
+
+  /// Number of faces of a tetrahedron that have fluid on the other side.
+  std::ptrdiff_t n_open(std::uint32_t t) const {
+    return std::ranges::count_if(fluid_.neighbours[t], [&](std::uint32_t across) { return across != k_none && !is_solid(across / 4); });
   }
 
-  /// Returns true if a tetrahedron may become solid to make the wall manifold: a little thicker than others, between facing walls as they are.
-  bool is_repair(std::uint32_t t) const {
-    const double width = k_repair_width * options_.width;
-    return (state_[t] == State::thin || state_[t] == State::between) && thickness_[t] <= width && is_between_facing(t, width);
-  }
-
-  /// Where the wall is not manifold, the thinnest tetrahedron between walls becomes solid; where there is none, the solid ones become fluid for good.
-  bool repair_topology() {
+  /// Where the wall is not manifold, the flattest tetrahedron becomes solid. If none is flat, a solid one becomes fluid for good: the one with the most faces
+  /// at the fluid, and of these the one with the widest opening.
+  bool repair_topology(bool is_careful) {
     bool is_changed = false;
     for (const std::vector<std::uint32_t>& tets_there : broken_places()) {
-      std::uint32_t best = k_none;
-      for (const std::uint32_t t : tets_there)
-        if (is_repair(t) && (best == k_none || thickness_[t] < thickness_[best])) best = t;
-      if (best != k_none) {
-        state_[best] = State::solid;
-        is_changed = true;
-        continue;
+      std::uint32_t flattest = k_none, outermost = k_none;
+      for (const std::uint32_t t : tets_there) {
+        if (is_repair(t) && (flattest == k_none || thickness_[t] < thickness_[flattest])) flattest = t;
+        if (is_solid(t) && (outermost == k_none || std::pair(n_open(t), opening_[t]) > std::pair(n_open(outermost), opening_[outermost]))) outermost = t;
       }
-      for (const std::uint32_t t : tets_there) is_changed = reopen(t) || is_changed;
+      if (flattest != k_none) state_[flattest] = State::solid;
+      else if (outermost != k_none && is_careful) reopen(outermost);
+      else if (outermost != k_none)
+        for (const std::uint32_t t : tets_there) reopen(t);
+      is_changed = is_changed || flattest != k_none || outermost != k_none;
     }
     return is_changed;
+  }
+
+  /// Nodes that are not on the wall must not be on the new one: solid tetrahedra that have one become fluid where fluid is beside it.
+  void reopen_inner_nodes() {
+    for (bool is_changed = true; is_changed;) {
+      is_changed = false;
+      for (std::uint32_t t = 0; t < state_.size(); ++t) {
+        if (!is_solid(t) || std::ranges::all_of(fluid_.nodes[t], [&](std::uint32_t node) { return is_wall_node_[node] != 0; })) continue;
+        for (int i = 0; i < 4; ++i) {
+          const std::uint32_t across = fluid_.neighbours[t][static_cast<std::size_t>(i)];
+          if (across == k_none || is_solid(across / 4)) continue;
+          const Face face = face_of(t, i);
+          if (std::ranges::all_of(face, [&](std::uint32_t node) { return is_wall_node_[node] != 0; })) continue;
+          is_changed = reopen(t) || is_changed;
+          break;
+        }
+      }
+    }
+  }
+
+  /// New wall triangles that are farther from the given wall than half of the width (the middle of a gap): their solid tetrahedra become fluid for good.
+  bool reopen_far() {
+    bool is_changed = false;
+    for (const WallFace& face : faces_)
+      if (face.solid != k_none && distance_of(face) > 0.5 * k_rounding * options_.width) is_changed = reopen(face.solid) || is_changed;
+    return is_changed;
+  }
+
+  /// Largest distance of a face from the given wall, m: at points that divide its edges in eight.
+  double distance_of(const WallFace& face) const {
+    constexpr int k_parts = 8;
+    const auto& [a, b, c] = face.nodes;
+    const Vec3 &p = fluid_.points[a], u = fluid_.points[b] - p, v = fluid_.points[c] - p;
+    double distance = 0.0;
+    for (int i = 0; i <= k_parts; ++i)
+      for (int j = 0; i + j <= k_parts; ++j)
+        distance = std::max(distance, given_.nearest(p + (i / static_cast<double>(k_parts)) * u + (j / static_cast<double>(k_parts)) * v).distance);
+    return distance;
   }
 
   bool reopen(std::uint32_t t) {
@@ -291,7 +339,7 @@ class Filler {
     return broken;
   }
 
-  /// Finds fluid that solid tetrahedra separate from the rest. Inside a gap it becomes solid as well. Other fluid stays connected:
+  /// Finds fluid that solid tetrahedra separate from the rest. Fluid that is thin everywhere becomes solid as well. Other fluid stays connected:
   /// the solid tetrahedra around it become fluid for good.
   bool join_enclosed() {
     const auto n = static_cast<std::uint32_t>(state_.size());
@@ -313,7 +361,7 @@ class Filler {
     }
     std::set<std::uint32_t> open;  // parts that are no gap
     for (std::uint32_t t = 0; t < n; ++t)
-      if (!is_solid(t) && small.contains(now.root(t)) && !is_repair(t)) open.insert(now.root(t));
+      if (!is_solid(t) && small.contains(now.root(t)) && !is_in_gap(t)) open.insert(now.root(t));
     bool is_changed = false;
     for (std::uint32_t t = 0; t < n; ++t) {
       if (is_solid(t) || !small.contains(now.root(t))) continue;
@@ -326,6 +374,14 @@ class Filler {
         if (across != k_none) is_changed = reopen(across / 4) || is_changed;
     }
     return is_changed;
+  }
+
+  /// Returns true if a tetrahedron may be inside a gap: it is thin, and its nodes are not farther from the wall than the middle of a gap is.
+  bool is_in_gap(std::uint32_t t) const {
+    return state_[t] != State::left && thickness_of(corners_of(t)) <= k_rounding * options_.width &&
+           std::ranges::all_of(fluid_.nodes[t], [&](std::uint32_t node) {
+             return is_wall_node_[node] != 0 || given_.nearest(fluid_.points[node], options_.width).distance <= 0.5 * k_rounding * options_.width;
+           });
   }
 
   void find_left(CreviceReport& report) const {
@@ -401,7 +457,7 @@ class Filler {
   }
 
   void report_crevices(CreviceReport& report) const {
-    DisjointSets regions(state_.size() + wall_.n_vertices());
+    DisjointSets regions(state_.size() + fluid_.points.size());
     for (std::uint32_t t = 0; t < state_.size(); ++t)
       if (is_solid(t))
         for (const std::uint32_t node : fluid_.nodes[t]) regions.join(t, static_cast<std::uint32_t>(state_.size()) + node);
@@ -419,7 +475,7 @@ class Filler {
         crevice.place = middle_of(t);
       }
       crevice.volume += volume;
-      crevice.width = std::max(crevice.width, thickness_[t]);
+      if (opening_[t] <= k_rounding * options_.width) crevice.width = std::max(crevice.width, opening_[t]);
       ++crevice.n_tetrahedra;
       for (const Vec3& corner : corners_of(t)) crevice.box.add(corner);
     }
@@ -431,9 +487,7 @@ class Filler {
     for (const WallFace& face : faces_) {
       if (face.solid == k_none) continue;
       double& distance = by_root[regions.root(face.solid)].crevice.distance;
-      const auto& [a, b, c] = face.nodes;
-      const Vec3 &p = fluid_.points[a], &q = fluid_.points[b], &r = fluid_.points[c];
-      for (const Vec3& sample : {face.middle, 0.5 * (p + q), 0.5 * (q + r), 0.5 * (r + p)}) distance = std::max(distance, given_.nearest(sample).distance);
+      distance = std::max(distance, distance_of(face));
     }
     for (auto& [root, region] : by_root) {
       sort_unique(region.crevice.patches);
@@ -446,21 +500,21 @@ class Filler {
 
   enum class State : std::uint8_t {
     other,    ///< with a node that is not on a wall
-    between,  ///< all nodes on walls, thicker than the width
-    thin,     ///< all nodes on walls, and thin
+    between,  ///< all nodes on walls
     solid,
     left,  ///< has to stay fluid
   };
 
   const TriMesh& wall_;
-  const TriangleTree& given_;  ///< tree of the wall before the first pass
+  const TriangleTree& given_;  ///< tree of `wall`
   const CreviceOptions& options_;
   const RunContext& context_;
   tets::TetMesh fluid_;
   std::vector<std::uint8_t> is_wall_node_;
   std::map<Face, std::uint32_t> triangle_of_;  ///< wall triangle of its sorted nodes
   std::vector<State> state_;                   ///< state per tetrahedron
-  std::vector<double> thickness_;              ///< m, of each tetrahedron whose nodes are on walls
+  std::vector<double> thickness_;              ///< thickness in m, for tetrahedra whose nodes are all on walls
+  std::vector<double> opening_;                ///< opening_of()
   std::vector<std::vector<std::uint32_t>> at_node_;
   std::vector<WallFace> faces_;  ///< the wall at present
   std::vector<std::vector<std::uint32_t>> faces_at_;
@@ -482,32 +536,6 @@ tets::TetMesh fluid_of(const TriMesh& wall, const RunContext& context) {
   throw Error(std::move(error));
 }
 
-/// Adds a crevice of a later pass to `other`, which it touches.
-void merge(FilledCrevice& other, FilledCrevice crevice) {
-  if (crevice.volume > other.volume) other.place = crevice.place;
-  other.box.add(crevice.box);
-  other.volume += crevice.volume;
-  other.width = std::max(other.width, crevice.width);
-  other.distance = std::max(other.distance, crevice.distance);
-  other.n_tetrahedra += crevice.n_tetrahedra;
-  other.patches.insert(other.patches.end(), crevice.patches.begin(), crevice.patches.end());
-  sort_unique(other.patches);
-}
-
-/// Adds the report of a later pass. Crevices whose boxes touch are one crevice.
-void add_pass(CreviceReport& report, CreviceReport pass) {
-  for (FilledCrevice& crevice : pass.crevices) {
-    const auto touched = std::ranges::find_if(report.crevices, [&](const FilledCrevice& other) { return overlap(other.box, crevice.box); });
-    if (touched == report.crevices.end()) report.crevices.push_back(std::move(crevice));
-    else merge(*touched, std::move(crevice));
-  }
-  report.volume += pass.volume;
-  report.distance = std::max(report.distance, pass.distance);
-  report.n_triangles = pass.n_triangles;
-  report.n_left = pass.n_left;
-  report.left = std::move(pass.left);
-}
-
 }  // namespace
 
 CreviceResult fill_crevices(const TriMesh& wall, const CreviceOptions& options, const RunContext& context) {
@@ -517,20 +545,9 @@ CreviceResult fill_crevices(const TriMesh& wall, const CreviceOptions& options, 
                  .problem = is_automatic(options.width) ? std::string("no width is given") : "the width " + in_metres(options.width) + " is not positive",
                  .hint = "give the largest distance between facing walls that is filled, for example width = 0.02"});
   const TriangleTree given(wall, context);
-  CreviceResult result{.wall = wall, .report = {}};
-  result.report.n_triangles_before = static_cast<std::int64_t>(wall.n_triangles());
-  for (int pass = 0; pass < k_passes; ++pass) {
-    const RunContext part = context.part("fluid", static_cast<double>(pass) / k_passes, (pass + 1.0) / k_passes);
-    Filler filler(result.wall, given, fluid_of(result.wall, part), options, part);
-    filler.fill();
-    CreviceResult made = filler.result();
-    const bool is_done = made.report.crevices.empty();
-    add_pass(result.report, std::move(made.report));
-    result.wall = std::move(made.wall);
-    if (is_done) break;
-  }
-  std::ranges::stable_sort(result.report.crevices, [](const FilledCrevice& a, const FilledCrevice& b) { return a.volume > b.volume; });
-  return result;
+  Filler filler(wall, given, fluid_of(wall, context.part("fluid", 0.0, k_divided)), options, context);
+  filler.fill();
+  return filler.result();
 }
 
 std::vector<std::string> to_lines(const CreviceReport& report, std::size_t n) {

@@ -26,11 +26,14 @@ SurfaceValue filled_crevices(const SurfaceValue& wall, const volmesh::CreviceOpt
   const volmesh::CreviceReport& report = result.report;
   if (report.n_left > 0)
     context.warn(
-        fmt::format("fill_crevices: {} thin tetrahedra between walls stay fluid, the first at ({:.6g}, {:.6g}, {:.6g}): filling them would make the "
-                    "wall non-manifold or would enclose fluid; try another width",
-                    report.n_left, report.left.front().x, report.left.front().y, report.left.front().z));
+        fmt::format("fill_crevices: {} of gaps stay open, the first at ({:.6g}, {:.6g}, {:.6g}): filling them would make the wall non-manifold, "
+                    "would enclose fluid, or would move the wall by more than half of the width. Remesh the walls there with edges of similar length, "
+                    "or use another width",
+                    count_text(report.n_left) + (report.n_left == 1 ? " tetrahedron" : " tetrahedra"), report.left.front().x, report.left.front().y,
+                    report.left.front().z));
   if (report.crevices.empty()) {
-    context.warn(fmt::format("fill_crevices: no crevice is narrower than {:.3g} m; the surface is unchanged", options.width));
+    context.warn(fmt::format("fill_crevices: no crevice up to {:.3g} m wide {}; the surface is unchanged", options.width,
+                             report.n_left > 0 ? "could be filled" : "was found"));
     return wall;
   }
   SurfaceValue made = wall;

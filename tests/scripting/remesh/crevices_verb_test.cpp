@@ -29,7 +29,7 @@ TEST_F(CrevicesVerb, GapIsFilledAndReported) {
 
 TEST_F(CrevicesVerb, NarrowWidthChangesNothingAndWarns) {
   EXPECT_EQ(run(boxes() + "print(fill_crevices{ w, width = 10*mm }.triangles == w.triangles)"), "true\n");
-  EXPECT_THAT(log_, HasSubstr("no crevice is narrower than 0.01 m; the surface is unchanged"));
+  EXPECT_THAT(log_, HasSubstr("no crevice up to 0.01 m wide was found; the surface is unchanged"));
 }
 
 TEST_F(CrevicesVerb, MistakesAreReported) {
