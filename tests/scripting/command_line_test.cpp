@@ -87,7 +87,7 @@ TEST_F(CommandLine, SurfacesInFormatsOfVolumesAreSurfaces) {
     EXPECT_NE(check.errors.find("the file has a surface of 12 triangles, but no cells"), std::string::npos) << check.errors;
     EXPECT_NE(check.errors.find("sterna info"), std::string::npos);
   }
-  EXPECT_NE(sterna({"check", "box.stl"}).errors.find("stores surfaces only"), std::string::npos);
+  EXPECT_NE(sterna({"check", "box.stl"}).errors.find("holds surfaces only"), std::string::npos);
 }
 
 TEST_F(CommandLine, AllWrongOptionsAreNamedTogether) {

@@ -104,7 +104,7 @@ TEST_F(WithoutEffect, TheTimeLimitHoldsForReadingModels) {
   EXPECT_EQ(n, 2u) << shown;  // options of the engines and of reading
   const std::string help = sterna({"mesh", "--help"}).output;
   EXPECT_THAT(help, HasSubstr("read_cad.time_limit"));
-  EXPECT_THAT(help, HasSubstr("of models: 1e-09 .. 1e+06 m"));
+  EXPECT_THAT(help, HasSubstr("for models: 1e-09 .. 1e+06 m"));
 }
 
 TEST_F(WithoutEffect, RetryOfSeriesMayBeSet) {
