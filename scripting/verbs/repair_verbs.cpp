@@ -56,6 +56,7 @@ ScriptValue make_filled_crevices(const ScriptCall& call) {
   if (wall == nullptr) reader.add_problem("expected one surface (from read_surface, surface_mesh ...): " + std::string(k_crevices_usage));
   reader.read_options(schema);
   apply_overrides(call, schema);
+  if (is_automatic(options.width)) reader.add_problem("width is missing: the largest distance between facing walls that is filled, for example width = 20*mm");
   reader.finish();
   return std::make_shared<const SurfaceValue>(filled_crevices(**wall, options, call.session.context.part("fill_crevices", 0.0, 1.0)));
 }

@@ -230,7 +230,7 @@ TEST(DiscOnWall, SaysWhereItCannotBe) {
   const ErrorInfo rim = mesh({{.name = "prop", .center = {0, 0.4, 0}, .radius = 0.3}});
   EXPECT_EQ(rim.code, ErrorCode::self_intersection);
   EXPECT_THAT(rim.attempted, HasSubstr("prop"));
-  EXPECT_THAT(rim.problem, HasSubstr("rims"));
+  EXPECT_THAT(rim.problem, HasSubstr("circle of the disc"));
   EXPECT_FALSE(rim.places.empty());
   // A disc beyond the farfield.
   const ErrorInfo far = mesh({{.name = "prop", .center = {0, 0, 0}, .radius = 40.0}});
