@@ -244,7 +244,7 @@ TEST_F(InspectFiles, TakeFlowsAndLimits) {
   EXPECT_THAT(error(wall + "inspect{ wall, first_hight = 1e-4 }"), HasSubstr("first_height"));
   EXPECT_THAT(error(wall + "inspect{ wall, unit = mm }"), HasSubstr("unit"));
   EXPECT_THAT(error("inspect{}"), HasSubstr("needs a surface or the name of a file"));
-  EXPECT_THAT(error("inspect{ 7 }"), HasSubstr("entry 1: expected one surface, or names of files"));
+  EXPECT_THAT(error("inspect{ 7 }"), HasSubstr("entry 1: expected one surface or names of files"));
   EXPECT_THAT(error("inspect 'nothing.stl'"), HasSubstr("nothing.stl"));
   run(wall + "volume_mesh{ wall, layers = 2, first_height = 1e-2, farfield = sphere{ radius = 5 } }:write(" + out("box.su2") + ")");
   EXPECT_THAT(error("inspect(" + out("box.su2") + ")"), HasSubstr("it is a volume mesh of"));
