@@ -253,7 +253,7 @@ TEST(PeriodicDomain, MismatchesAreReportedWithLocationsAndDistances) {
   const ErrorInfo info = problem_of(moved, {{"left", "right"}});
   EXPECT_THAT(info.problem, HasSubstr("2 border vertices have no partner"));
   ASSERT_EQ(info.places.size(), 2u);
-  EXPECT_THAT(info.places[0].what, HasSubstr("0.08 m off"));
+  EXPECT_THAT(info.places[0].what, HasSubstr("0.08 m away"));
   EXPECT_NEAR(info.places[0].position.x, 4.0 / 3.0, 1e-9);
 
   // The wing ends before the right side, and a patch without layers has its outline there.

@@ -396,7 +396,7 @@ TEST(Inspect, ComparesFirstAndLastCellsWithTheEdges) {
   InspectRequest low = request_of(8, 1e-5);
   low.volume.envelope.max_thickness = 0.01;
   const std::string never = the(inspect(cube, low), Kind::thin_top).advice;
-  EXPECT_EQ(never.find("shorter edges"), 0u) << never;
+  EXPECT_EQ(never.find("use shorter edges"), 0u) << never;
   const InspectReport tall = inspect(cube, request_of(5, 0.2));
   EXPECT_TRUE(tall.find(Kind::tall_first));
 }
