@@ -147,7 +147,8 @@ TEST_F(FillWithSplits, ARefusalIsAFailureOfTheAttempt) {
 
 TEST_F(FillWithSplits, ContradictionsAreNamed) {
   EXPECT_THAT(error_info_of([&] { fill({.boundary_splits = "always"}, {}); }).hint, HasSubstr("set boundary_splits = \"ladder\""));
-  EXPECT_THAT(error_info_of([&] { fill({.engine = "hxt", .boundary_splits = "always"}, [](TetraResult&) {}); }).hint, HasSubstr("HXT cannot split the boundary"));
+  EXPECT_THAT(error_info_of([&] { fill({.engine = "hxt", .boundary_splits = "always"}, [](TetraResult&) {}); }).hint,
+              HasSubstr("HXT cannot split the boundary"));
   EXPECT_EQ(error_info_of([&] { fill({.boundary_splits = "sometimes"}, {}); }).code, ErrorCode::bad_argument);
 }
 
