@@ -69,12 +69,8 @@ SurfaceValue remeshed_if(const SurfaceValue& wall, const RemeshRecipe& recipe, c
   });
   require_likeness(result.report, demand);  // a cached result may have been made without this demand
   SurfaceValue made = wall;
-  made.mesh = std::move(result.mesh);
+  replace_mesh(made, std::move(result.mesh));
   made.remesh_options = recipe.options;
-  made.mesh_report.reset();  // the report is that of the former triangles
-  made.model_wall.reset();
-  made.model_wall_key.reset();
-  made.parts.clear();
   const std::string text = "remeshed: " + to_text(result.report);
   made.report.messages.push_back(text);
   made.changes.push_back(fmt::format("remeshed: {} -> {} triangles, at most {:.3g} m from the given ones", count_text(result.report.n_triangles_before),

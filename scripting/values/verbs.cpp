@@ -234,4 +234,12 @@ OptionTable all_options(surfmesh::StitchOptions& surface, volmesh::MeshCase& vol
   return table;
 }
 
+void replace_mesh(SurfaceValue& surface, TriMesh mesh) {
+  surface.mesh = std::move(mesh);
+  surface.mesh_report.reset();
+  surface.model_wall.reset();
+  surface.model_wall_key.reset();
+  surface.parts.clear();
+}
+
 }  // namespace sterna::scripting

@@ -67,6 +67,9 @@ struct SurfaceValue {
                                                   ///< (geom/mesh/compare_geometry.h)
 };
 
+/// Replaces the mesh of a surface, and drops the data that refer to its former triangles: report of the mesher, positions on the model, placed parts.
+void replace_mesh(SurfaceValue& surface, TriMesh mesh);
+
 /// Describes how a volume mesh was made in this run. Absent for a mesh that was read from a file.
 struct MeshOrigin {
   surfmesh::StitchOptions surface_options;

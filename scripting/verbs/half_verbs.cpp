@@ -84,14 +84,11 @@ std::span<const ScriptVerb> half_verbs() { return k_half_verbs; }
 
 SurfaceValue half_surface(const SurfaceValue& surface, const HalfOptions& options, const RunContext& context) {
   SurfaceValue half = surface;
-  half.mesh = half_of(surface.mesh, options, context);
+  replace_mesh(half, half_of(surface.mesh, options, context));
   half.report.is_closed = false;
-  half.mesh_report.reset();                                         // report of the whole surface
-  half.model_wall.reset();                                          // refers to the triangles of the whole surface by number
   std::erase_if(half.layers, [&](const volmesh::PatchRule& rule) {  // removes rules of patches that are on the other side only
     return std::none_of(half.mesh.patches.begin(), half.mesh.patches.end(), [&](const Patch& patch) { return matches_glob(patch.name, rule.names); });
   });
-  half.parts.clear();
   note_half(half, surface.mesh, options, context);
   return half;
 }
