@@ -45,6 +45,12 @@ print(remesh{ wall,
   patches = { ["*"] = { max_edge = 0.6 } },
 })
 
+-- Narrow crevices and gaps become solid, because no boundary layer has room there. This surface has none up to this width, which is a warning.
+print(fill_crevices{ wall,
+  width = 1*mm,                     -- largest distance between facing walls that is filled
+  angle = 60*deg,                   -- largest angle of fluid between them; parallel walls enclose 0
+})
+
 -- Of one surface alone union only proves that it is a solid; here stand the parts that stick in each other: union{ wall, "sting.stl", unit = mm }.
 wall = union{ wall,
   remesh = true,                    -- better triangles along the curves in which parts cross

@@ -8,10 +8,12 @@
 #include <limits>
 #include <map>
 #include <set>
+#include <utility>
 
 #include "geom/base/disjoint_sets.h"
 #include "geom/base/error.h"
 #include "geom/base/number_text.h"
+#include "geom/base/parallel.h"
 #include "geom/base/sort_unique.h"
 #include "geom/mesh/bvh.h"
 #include "geom/tets/recover.h"
@@ -26,6 +28,8 @@ using Face = std::array<std::uint32_t, 3>;
 constexpr double k_divided = 0.7;          ///< share of the progress
 constexpr double k_flat = 0.02;            ///< thickness over the width of tetrahedra that are very flat
 constexpr double k_rounding = 1.0 + 1e-9;  ///< a gap as wide as the width is filled
+constexpr double k_on_edge = 1e-6;         ///< rounding of the areas by which a sample is inside a triangle, over the area of the triangle
+constexpr double k_most_filled = 0.5;      ///< fraction of a region of the fluid that may become solid
 constexpr int k_careful_rounds = 30;       ///< rounds in which one tetrahedron at each location becomes fluid again; later all there
 constexpr int k_most_rounds = 10000;       ///< rounds of repairs; each but the last changes a tetrahedron for good
 constexpr double k_same_place = 1e-6;      ///< over the body length: open boundaries were moved at most this far into their plane
@@ -39,7 +43,6 @@ Face sorted(Face f) {
 /// A triangle of the wall as it is at present. Normal into the fluid.
 struct WallFace {
   Face nodes;
-  std::uint32_t fluid = k_none;  ///< the tetrahedron beside it
   std::uint32_t given = k_none;  ///< the triangle of the given wall; none for faces between solid and fluid
   std::uint32_t solid = k_none;  ///< the solid tetrahedron behind a face that is not of the given wall
   Vec3 normal;                   ///< unit
@@ -73,11 +76,12 @@ class Filler {
   void fill() {
     for (std::uint32_t t = 0; t < state_.size(); ++t)
       if (opening_[t] <= k_rounding * options_.width) state_[t] = State::solid;
+    require_fluid();
     for (int round = 0; round < k_most_rounds; ++round) {
       context_.check_stop();
       reopen_inner_nodes();
       make_surface();
-      if (!repair_topology(round < k_careful_rounds) && !join_enclosed() && !reopen_far()) return;
+      if (!join_enclosed() && !repair_topology(round < k_careful_rounds) && !reopen_far()) return;
     }
     throw Error({.code = ErrorCode::geometry_failed,
                  .attempted = "filling crevices",
@@ -150,16 +154,27 @@ class Filler {
     thickness_.assign(fluid_.nodes.size(), 0.0);
     opening_.assign(fluid_.nodes.size(), std::numeric_limits<double>::infinity());
     at_node_.resize(wall_.n_vertices());
-    make_surface();
-    for (std::uint32_t t = 0; t < fluid_.nodes.size(); ++t) {
-      const tets::Corners& n = fluid_.nodes[t];
-      for (const std::uint32_t node : n)
+    for (std::uint32_t t = 0; t < fluid_.nodes.size(); ++t)
+      for (const std::uint32_t node : fluid_.nodes[t])
         if (node < at_node_.size() && is_wall_node_[node]) at_node_[node].push_back(t);
-      if (!std::ranges::all_of(n, [&](std::uint32_t node) { return is_wall_node_[node] != 0; })) continue;
+    make_surface();
+    require_all_faces();
+    parallel_for(context_, fluid_.nodes.size(), [&](std::size_t i) {
+      const auto t = static_cast<std::uint32_t>(i);
+      if (!std::ranges::all_of(fluid_.nodes[t], [&](std::uint32_t node) { return is_wall_node_[node] != 0; })) return;
       state_[t] = State::between;
       thickness_[t] = thickness_of(corners_of(t));
       if (thickness_[t] <= k_rounding * options_.width) opening_[t] = opening_of(t);
-    }
+    });
+  }
+
+  /// A wall triangle without fluid beside it would be lost in the new wall.
+  void require_all_faces() const {
+    if (faces_.size() == triangle_of_.size()) return;
+    throw Error({.code = ErrorCode::internal,
+                 .attempted = "filling crevices",
+                 .problem = std::to_string(triangle_of_.size() - faces_.size()) + " triangles of the wall have no tetrahedron beside them",
+                 .hint = "report this surface"});
   }
 
   void make_surface() {
@@ -181,9 +196,9 @@ class Filler {
         const Face face = face_of(t, i);
         if (across == k_none) {
           const auto found = triangle_of_.find(sorted(face));
-          if (found != triangle_of_.end()) add({.nodes = face, .fluid = t, .given = found->second, .normal = {}, .middle = {}});
+          if (found != triangle_of_.end()) add({.nodes = face, .given = found->second, .normal = {}, .middle = {}});
         } else if (is_solid(across / 4)) {
-          add({.nodes = face, .fluid = t, .solid = across / 4, .normal = {}, .middle = {}});
+          add({.nodes = face, .solid = across / 4, .normal = {}, .middle = {}});
         }
       }
     }
@@ -193,8 +208,9 @@ class Filler {
   bool is_over(const WallFace& face, const WallFace& other) const {
     const auto& [a, b, c] = face.nodes;
     const Vec3 &p = fluid_.points[a], &q = fluid_.points[b], &r = fluid_.points[c];
+    const double least = -k_on_edge * dot(face.normal, cross(q - p, r - p));  // samples of equal grids lie on edges
     const auto is_inside = [&](const Vec3& x) {
-      return dot(face.normal, cross(q - p, x - p)) >= 0.0 && dot(face.normal, cross(r - q, x - q)) >= 0.0 && dot(face.normal, cross(p - r, x - r)) >= 0.0;
+      return dot(face.normal, cross(q - p, x - p)) >= least && dot(face.normal, cross(r - q, x - q)) >= least && dot(face.normal, cross(p - r, x - r)) >= least;
     };
     const std::array<Vec3, 3> corners = {fluid_.points[other.nodes[0]], fluid_.points[other.nodes[1]], fluid_.points[other.nodes[2]]};
     for (std::size_t i = 0; i < 3; ++i)
@@ -339,8 +355,8 @@ class Filler {
     return broken;
   }
 
-  /// Finds fluid that solid tetrahedra separate from the rest. Fluid that is thin everywhere becomes solid as well. Other fluid stays connected:
-  /// the solid tetrahedra around it become fluid for good.
+  /// Finds fluid that solid tetrahedra separate from the rest. Fluid that is thin everywhere becomes solid as well. Other fluid stays connected: the solid
+  /// tetrahedra around it become fluid for good.
   bool join_enclosed() {
     const auto n = static_cast<std::uint32_t>(state_.size());
     DisjointSets before(n), now(n);
@@ -382,6 +398,29 @@ class Filler {
            std::ranges::all_of(fluid_.nodes[t], [&](std::uint32_t node) {
              return is_wall_node_[node] != 0 || given_.nearest(fluid_.points[node], options_.width).distance <= 0.5 * k_rounding * options_.width;
            });
+  }
+
+  /// A duct as narrow as a gap is no gap.
+  /// \throws Error(bad_argument) if most of the volume of a connected region of the fluid is solid
+  void require_fluid() const {
+    DisjointSets regions(state_.size());
+    for (std::uint32_t t = 0; t < state_.size(); ++t)
+      for (const std::uint32_t across : fluid_.neighbours[t])
+        if (across != k_none) regions.join(t, across / 4);
+    std::map<std::uint32_t, std::array<double, 2>> volumes;  // of the region, and of its solid tetrahedra
+    for (std::uint32_t t = 0; t < state_.size(); ++t) {
+      std::array<double, 2>& sums = volumes[regions.root(t)];
+      sums[0] += volume_of(t);
+      if (is_solid(t)) sums[1] += volume_of(t);
+    }
+    for (const auto& [region, sums] : volumes)
+      if (sums[1] > k_most_filled * sums[0])
+        throw Error({.code = ErrorCode::bad_argument,
+                     .attempted = "filling crevices",
+                     .problem = number_text(100.0 * sums[1] / sums[0], 3) + " % of a region of the fluid is narrower than the width " +
+                                in_metres(options_.width) + " and would become solid; the limit is " + number_text(100.0 * k_most_filled, 3) + " %",
+                     .places = {{middle_of(region), "fluid of this region"}},
+                     .hint = "use a smaller width"});
   }
 
   void find_left(CreviceReport& report) const {

@@ -50,7 +50,7 @@ struct CreviceResult {
 /// tetrahedra become wall triangles, with the patch of the wall nearest through the solid tetrahedra. This is repeated on the new wall until nothing changes.
 /// \pre manifold, oriented, without self-intersection; closed, or open along boundaries in planes
 /// \post the same; no vertex of the wall has moved; the wall is unchanged if nothing is filled
-/// \throws Error(bad_argument) for a width that is not positive; geometry_failed if the fluid cannot be divided; the errors of complete_boundary()
+/// \throws Error(bad_argument) for a width that is not positive, or that would fill more than half of a region of the fluid; geometry_failed if the fluid cannot be divided; the errors of complete_boundary()
 CreviceResult fill_crevices(const TriMesh& wall, const CreviceOptions& options, const RunContext& context);
 
 /// Returns one line for each crevice, the largest first, at most `n` of them.

@@ -10,15 +10,6 @@ namespace {
 
 constexpr std::size_t k_crevices_in_log = 10;
 
-/// Replaces the mesh, and drops the data that belong to its former triangles.
-void replace_mesh(SurfaceValue& surface, TriMesh mesh) {
-  surface.mesh = std::move(mesh);
-  surface.mesh_report.reset();
-  surface.model_wall.reset();
-  surface.model_wall_key.reset();
-  surface.parts.clear();
-}
-
 }  // namespace
 
 SurfaceValue filled_crevices(const SurfaceValue& wall, const volmesh::CreviceOptions& options, const RunContext& context) {
@@ -26,11 +17,11 @@ SurfaceValue filled_crevices(const SurfaceValue& wall, const volmesh::CreviceOpt
   const volmesh::CreviceReport& report = result.report;
   if (report.n_left > 0)
     context.warn(
-        fmt::format("fill_crevices: {} of gaps stay open, the first at ({:.6g}, {:.6g}, {:.6g}): filling them would make the wall non-manifold, "
-                    "would enclose fluid, or would move the wall by more than half of the width. Remesh the walls there with edges of similar length, "
+        fmt::format("fill_crevices: {} of gaps {} open, the first at ({:.6g}, {:.6g}, {:.6g}): the wall would become non-manifold, "
+                    "would enclose fluid, or would move by more than half of the width. Remesh the walls there with edges of similar length, "
                     "or use another width",
-                    count_text(report.n_left) + (report.n_left == 1 ? " tetrahedron" : " tetrahedra"), report.left.front().x, report.left.front().y,
-                    report.left.front().z));
+                    count_text(report.n_left) + (report.n_left == 1 ? " tetrahedron" : " tetrahedra"), report.n_left == 1 ? "stays" : "stay",
+                    report.left.front().x, report.left.front().y, report.left.front().z));
   if (report.crevices.empty()) {
     context.warn(fmt::format("fill_crevices: no crevice up to {:.3g} m wide {}; the surface is unchanged", options.width,
                              report.n_left > 0 ? "could be filled" : "was found"));
@@ -48,7 +39,7 @@ SurfaceValue filled_crevices(const SurfaceValue& wall, const volmesh::CreviceOpt
     made.report.messages.push_back("crevice filled at " + line);
     context.info("crevice filled at " + line);
   }
-  if (report.crevices.size() > k_crevices_in_log) context.info(fmt::format("{} smaller crevices more", report.crevices.size() - k_crevices_in_log));
+  if (report.crevices.size() > k_crevices_in_log) context.info(fmt::format("smaller crevices filled: {} more", report.crevices.size() - k_crevices_in_log));
   note_change(made, compare_geometry(wall.mesh, made.mesh, "fill_crevices", context), context);
   return made;
 }

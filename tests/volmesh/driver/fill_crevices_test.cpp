@@ -123,6 +123,34 @@ TEST(FillCrevices, GapThatConnectsFluidStaysOpen) {
   expect_sound(made.wall, 0);
 }
 
+TEST(FillCrevices, WedgeGapIsFilledUpToTheWidthOnly) {
+  TriMesh wall = cubes_with_gap(0.01);  // widens from 0.01 m at y = 0 to 0.11 m at y = 1
+  for (Point& p : wall.points)
+    if (p.x == 1.01) p.x += 0.1 * p.y;
+  const CreviceResult made = fill_crevices(wall, {.width = 0.06}, k_context);
+  expect_sound(made.wall, 0);
+  ASSERT_FALSE(made.report.crevices.empty());
+  EXPECT_LE(made.report.distance, 0.03 * (1.0 + 1e-9));
+  EXPECT_LE(made.report.crevices.front().box.max.y, 0.5 + 1e-9);  // the vertices at y = 0.5 have 0.06 m of gap
+}
+
+TEST(FillCrevices, DuctNarrowerThanTheWidthIsRefused) {
+  TriMesh room = test::cube_room(4);
+  for (Point& p : room.points) p.z *= 0.02;
+  test::expect_error(ErrorCode::bad_argument, "of a region of the fluid is narrower than the width",
+                     [&] { (void)fill_crevices(room, {.width = 0.05}, k_context); });
+}
+
+TEST(FillCrevices, OrderOfPartsDoesNotMatter) {
+  TriMesh wall = test::cube(4), swapped = wall;
+  TriMesh other = wall;
+  for (Point& p : other.points) p.x += 1.02;
+  swapped = other;
+  append(swapped, wall);
+  append(wall, other);
+  EXPECT_NEAR(fill_crevices(wall, {.width = 0.05}, k_context).report.volume, fill_crevices(swapped, {.width = 0.05}, k_context).report.volume, 1e-9);
+}
+
 TEST(FillCrevices, WidthMustBePositive) {
   test::expect_error(ErrorCode::bad_argument, "is not positive", [] { (void)fill_crevices(test::cube(), {.width = 0.0}, k_context); });
   test::expect_error(ErrorCode::bad_argument, "no width is given", [] { (void)fill_crevices(test::cube(), {}, k_context); });
