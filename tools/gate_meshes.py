@@ -1,4 +1,4 @@
-"""The meshes of `tools/verify_gates`: sound meshes of many bodies at two sizes, and meshes of a wing and an aircraft that are damaged on purpose. The bodies are those whose
+"""The meshes of `tools/verify_gates`: sound meshes of many bodies at three sizes, and meshes of a wing and an aircraft that are damaged on purpose. The bodies are those whose
 wall can be remeshed to about a thousand triangles, so that a run takes about a minute."""
 import pathlib
 
@@ -21,7 +21,7 @@ print("counts", wall.triangles, wall.length)
 """
 LAYERS = "first_height = {height}*wall.length, "
 Y_PLUS = "first_height = y_plus{ 1, mach = 0.2, altitude = 0, length = wall.length }, "
-SMALL, LARGE = 500, 800  # triangles of the wall
+SMALL, LARGE, REFINED = 500, 800, 2000  # triangles of the wall
 
 
 class Body:
@@ -85,6 +85,7 @@ BODIES = [
     of_model("widebody", "read_smx", "smx/widebody.smx"),
 ]
 LARGE_BODIES = ["first_mesh", "geom2", "wing_body", "bwb", "airplane", "cessna", "swept_wing", "caturbs", "m6_sharp", "lab_plane", "duct", "fandisk", "m6_cpacs"]
+REFINED_BODIES = ["wing_body", "geom2", "airplane", "caturbs", "lab_plane", "light", "bjet", "crm", "swept_wing", "simple_wing", "dlr_f6", "first_mesh", "duct", "m6_cpacs"]
 FINE_BODIES = ["wing_body", "first_mesh", "m6_cpacs"]  # with y+ 1 at the small size
 
 # A wing whose trailing edge has a width: its mesh has no gate beyond a hard limit for cell-centred solvers. The small wing is the one of --short.
@@ -178,7 +179,8 @@ def all_meshes() -> list[Mesh]:
         turns += first[i:i + 1] + sound_ones[i:i + 1]
     large = [sound(bodies[name], LARGE, LAYERS.format(height=1e-4), "_large") for name in LARGE_BODIES]
     fine = [sound(bodies[name], SMALL, Y_PLUS, "_y1") for name in FINE_BODIES]
-    return BASES + turns + large[:7] + fine + on_wing(MORE_DAMAGES) + [damaged("first_mesh_small", kind, amount, **strength) for kind, amount, strength in ON_BODY] + large[7:]
+    refined = [sound(bodies[name], REFINED, LAYERS.format(height=1e-4), "_refined") for name in REFINED_BODIES]
+    return BASES + turns + large[:7] + fine + refined + on_wing(MORE_DAMAGES) + [damaged("first_mesh_small", kind, amount, **strength) for kind, amount, strength in ON_BODY] + large[7:]
 
 
 SHORT_WING = wing(0.05, "naca0021", 0.8, 0.22, 0.04)

@@ -7,6 +7,7 @@ import argparse
 import collections
 import json
 import pathlib
+import shutil
 import subprocess
 import sys
 
@@ -85,6 +86,26 @@ def judge_file(arguments, path: pathlib.Path) -> dict:
     return result
 
 
+def judge_script(arguments, path: pathlib.Path) -> list[tuple[str, dict]]:
+    """Runs a script and judges each volume mesh it writes; a script that writes CAD files alone has them meshed as files are."""
+    folder = arguments.folder / path.name
+    done = folder / "verdict.json"
+    if done.exists():
+        return [(name, result) for name, result in json.loads(done.read_text()).items()]
+    shutil.rmtree(folder, ignore_errors=True)
+    shutil.copytree(path.parent, folder)
+    status, text = run([arguments.sterna, "run", path.name], folder, 10 * arguments.limit)
+    if status != 0:
+        errors = [line for line in text.splitlines() if "error" in line]
+        return [(path.name, {"why": f"no answer within {10 * arguments.limit:.0f} s" if status is None else errors[0][:120] if errors else "the script failed"})]
+    meshes = sorted(file for file in folder.rglob("*") if file.suffix in (".su2", ".cgns"))
+    rows = [(f"{path.name}: {mesh.name}", verdicts_of(arguments.sterna, mesh, folder, arguments.limit) or {"why": "check gives no report"}) for mesh in meshes]
+    if not meshes:
+        rows = [(f"{path.name}: {file.name}", judge_file(arguments, file)) for file in sorted(folder.glob("*.step"))]
+    done.write_text(json.dumps(dict(rows)))
+    return rows
+
+
 def words(state: str) -> str:
     return "FAIL" if state == "fail" else state
 
@@ -105,7 +126,7 @@ def table(rows: list[tuple[str, dict]]) -> None:
 
 def main(words_of_command: list[str], root: pathlib.Path) -> int:
     parser = argparse.ArgumentParser(prog="verify_gates verdicts", description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
-    parser.add_argument("files", nargs="*", type=pathlib.Path, help="surfaces and models, or volume meshes to be checked as they are (--meshes); without: clean surfaces, CAD, CPACS, smx of --data")
+    parser.add_argument("files", nargs="*", type=pathlib.Path, help="surfaces, models and scripts (.lua: every volume mesh that the script writes, with its own options), or volume meshes to be checked as they are (--meshes); without: clean surfaces, CAD, CPACS, smx of --data")
     parser.add_argument("--folder", type=pathlib.Path, default=pathlib.Path("verdicts"))
     parser.add_argument("--data", type=pathlib.Path, default=root.parent / "shared/data")
     parser.add_argument("--sterna", type=pathlib.Path, default=root / "build/release/sterna")
@@ -121,6 +142,10 @@ def main(words_of_command: list[str], root: pathlib.Path) -> int:
     rows = []
     for path in files:
         path = path.resolve()
+        if path.suffix == ".lua":
+            rows += judge_script(arguments, path)
+            print(f"{path.name}: {rows[-1][1]}", file=sys.stderr, flush=True)
+            continue
         if arguments.meshes:
             arguments.folder.mkdir(parents=True, exist_ok=True)
             result = verdicts_of(arguments.sterna, path, arguments.folder, arguments.limit) or {"why": "check gives no report"}
