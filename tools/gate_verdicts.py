@@ -1,8 +1,8 @@
-"""`tools/verify_gates verdicts`: verdicts before and after over a corpus of files, without a solver.
+"""`tools/verify_gates verdicts`: compares old and new verdicts for a collection of files, without a solver.
 
-Each file goes through `sterna mesh --auto` with few layers on coarse triangles; the mesh is checked for all solvers. "Before" is the rule of 25 November 2026: a mesh
-FAILs where any value is beyond a hard limit of then (BEFORE), whichever solver it is for, and whoever has evidence for it. With --meshes the files are volume meshes,
-as other programs write them, and are judged by the same gates as they are."""
+Each file is meshed by `sterna mesh --auto` with few layers on coarse triangles, and the mesh is checked for all solvers. The old verdict ("before") is the rule of
+25 November 2026: a mesh FAILs if any value exceeds one of the hard limits of that day (BEFORE), independent of the solver and of the evidence for the limit. With --meshes
+the files are volume meshes of other programs, which are checked without changes."""
 import argparse
 import collections
 import json
@@ -11,15 +11,15 @@ import shutil
 import subprocess
 import sys
 
-# measure: hard limit of 25 November 2026, whether values have to be above it
+# measure: (hard limit of 25 November 2026, whether the limit is a lower bound)
 BEFORE = {"orthogonality": (5.0, True), "sub_volume_ratio": (1e5, False), "stack_growth": (1.5, False), "interface_height": (8.0, False), "interface_volume": (8.0, False), "first_height": (0.2, False),
           "coverage": (0.95, True), "layer_step": (1.0, False), "min_dihedral": (5.0, True), "max_dihedral": (170.0, False), "tet_growth": (20.0, False), "edge_ratio": (100.0, False),
           "non_orthogonality": (90.0, False), "skewness": (20.0, False), "face_weight": (0.05, True), "volume_ratio": (0.01, True), "cell_openness": (1e-6, False), "face_tets": (1e-30, True)}
-LAYERS, HEIGHT = 12, 1e-4  # number; of the first, over the body's length
+LAYERS, HEIGHT = 12, 1e-4  # number of layers; first height over the body length
 
 
 def run(command: list, folder: pathlib.Path, limit: float) -> tuple[int | None, str]:
-    """Exit status (None: no answer within the limit) and output."""
+    """Returns exit status (None: no answer within the limit) and output."""
     try:
         done = subprocess.run([str(word) for word in command], cwd=folder, capture_output=True, text=True, errors="replace", timeout=limit)
     except subprocess.TimeoutExpired:
@@ -35,7 +35,7 @@ def first_object(text: str) -> dict | None:
 
 
 def before(report: dict) -> list[str]:
-    """Measures beyond the hard limits of 25 November; where all values beyond are forced they do not count, as then."""
+    """Returns the measures beyond the hard limits of 25 November. Measures whose values beyond the limit are all forced do not count, as on that day."""
     missed = []
     for entry in report["measures"]:
         limit = BEFORE.get(entry["measure"])
@@ -61,7 +61,7 @@ def verdicts_of(sterna: pathlib.Path, mesh: pathlib.Path, folder: pathlib.Path, 
 
 
 def mesh_file(arguments, path: pathlib.Path, folder: pathlib.Path) -> str:
-    """Makes mesh.sterna of a file; returns why there is none, or nothing."""
+    """Makes mesh.sterna from a file; returns the reason if this fails, otherwise an empty string."""
     _, text = run([arguments.sterna, "inspect", path, "--json", "--quiet", "--threads", "1"], folder, arguments.limit)
     described = first_object(text)
     if not described or not described.get("length"):
@@ -72,7 +72,7 @@ def mesh_file(arguments, path: pathlib.Path, folder: pathlib.Path) -> str:
 
 
 def judge_file(arguments, path: pathlib.Path) -> dict:
-    """Meshes a file, where that is not done, and judges the mesh; a mesh that is kept is judged again, because limits may have changed."""
+    """Meshes a file if its mesh does not exist, and judges the mesh. An existing mesh is judged again, because limits may have changed."""
     folder = arguments.folder / path.name
     done, mesh = folder / "verdict.json", folder / "mesh.sterna"
     if done.exists() and not mesh.exists():
