@@ -201,6 +201,7 @@ std::string Option::default_text() const {
 }
 
 std::string Option::range_text() const {
+  if (kind == OptionKind::vector) return std::string(kind_text(kind));
   if (!choices.empty() && kind == OptionKind::number) {
     Option plain = *this;
     plain.choices = {};

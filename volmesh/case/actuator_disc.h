@@ -30,7 +30,7 @@ struct Schema<volmesh::ActuatorDisc> {
   static constexpr std::string_view stage = "actuator_disc";
   static constexpr std::array fields = {
       Field<O>{.name = "name", .member = &O::name, .help = "name of the patch on the upstream side; the downstream patch is NAME.back"},
-      Field<O>{.name = "center", .member = &O::center, .unit = Unit::metre, .help = "centre of the disc, {x, y, z}", .required = true},
+      Field<O>{.name = "center", .member = &O::center, .unit = Unit::metre, .help = "centre of the disc", .required = true},
       Field<O>{.name = "axis", .member = &O::axis, .help = "direction of the flow through the disc, of any length"},
       Field<O>{.name = "radius",
                .member = &O::radius,
