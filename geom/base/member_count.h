@@ -28,16 +28,16 @@ struct FunctionMember {
 };
 
 template <class T, class... Members>
-constexpr bool is_initialised_by = requires {
+concept InitialisedBy = requires {
   T{Members{}...};
 };
 
 template <class T, class... Members>
 constexpr std::size_t count_members() {
-  if constexpr (is_initialised_by<T, Members..., AnyMember>) return count_members<T, Members..., AnyMember>();
-  else if constexpr (is_initialised_by<T, Members..., OptionalMember>) return count_members<T, Members..., OptionalMember>();
-  else if constexpr (is_initialised_by<T, Members..., VariantMember>) return count_members<T, Members..., VariantMember>();
-  else if constexpr (is_initialised_by<T, Members..., FunctionMember>) return count_members<T, Members..., FunctionMember>();
+  if constexpr (InitialisedBy<T, Members..., AnyMember>) return count_members<T, Members..., AnyMember>();
+  else if constexpr (InitialisedBy<T, Members..., OptionalMember>) return count_members<T, Members..., OptionalMember>();
+  else if constexpr (InitialisedBy<T, Members..., VariantMember>) return count_members<T, Members..., VariantMember>();
+  else if constexpr (InitialisedBy<T, Members..., FunctionMember>) return count_members<T, Members..., FunctionMember>();
   else return sizeof...(Members);
 }
 
