@@ -51,6 +51,7 @@ CheckReport check(const HybridMesh& mesh, const CheckOptions& options, const Run
   const LayerCheck::Parts* const known = ahead ? ahead->parts() : nullptr;
   CheckReport report;
   report.n_nodes = static_cast<std::int64_t>(mesh.points.size());
+  report.n_flipped_cells = mesh.n_flipped_cells;
   report.n_boundary_triangles = static_cast<std::int64_t>(mesh.boundary_triangles.size());
   report.n_boundary_quads = static_cast<std::int64_t>(mesh.boundary_quads.size());
 

@@ -105,14 +105,16 @@ struct CheckReport {
   Consumers consumers;                               ///< consumers that the states of `gates` refer to
   std::vector<PatchCoverage> coverage;               ///< per wall patch under layers, if the mesh has a layer request
   std::vector<PeriodicMatchReport> periodic;         ///< matching pairs of HybridMesh::periodic
+  std::int64_t n_flipped_cells = 0;                  ///< HybridMesh::n_flipped_cells
   bool is_complete = true;                           ///< false: indices are out of range or points are not finite, so that no other check was possible
   bool intersections_checked = false;                ///< G2 was requested and run
   bool dual_checked = false;                         ///< G4 was run; it needs faces that conform
   bool quality_measured = false;                     ///< `quality` and `gates` are filled
   bool is_valid() const { return counts.empty(); }
-  /// Returns the worst state of the QUALITY gates; not_checked if no gate was checked.
+  /// Returns the worst state of the QUALITY gates; not_checked if no gate was checked. If the mesh does not conform (\ref dual_checked), most gates were not
+  /// evaluated, so the state is FAIL or not_checked.
   GateState quality_state() const;
-  /// Returns the worst state for one solver class.
+  /// Returns the worst state for one solver class, by the same rule.
   GateState quality_state(Consumer consumer) const;
   /// Keeps the states of gates that at least one of these consumers uses and sets the others to "not checked". Values are kept.
   void restrict_to(Consumers requested);

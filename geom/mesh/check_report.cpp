@@ -206,6 +206,9 @@ std::string coverage_text(const PatchCoverage& patch) {
   return text + "\n";
 }
 
+/// Returns the worst state of the checked gates, or not_checked if gates that need a conforming mesh could still FAIL.
+GateState proven_state(const CheckReport& report, GateState worst) { return report.dual_checked || worst == GateState::fail ? worst : GateState::not_checked; }
+
 }  // namespace
 
 std::string_view to_string(Violation v) {
@@ -277,7 +280,7 @@ GateState CheckReport::quality_state() const {
   for (const GateState state : {GateState::pass, GateState::warn, GateState::fail})
     for (const GateResult& gate : gates)
       if (gate.state == state) worst = state;
-  return worst;
+  return proven_state(*this, worst);
 }
 
 GateState CheckReport::quality_state(Consumer consumer) const {
@@ -285,7 +288,7 @@ GateState CheckReport::quality_state(Consumer consumer) const {
   for (const GateState state : {GateState::pass, GateState::warn, GateState::fail})
     for (const GateResult& gate : gates)
       if (state_for(gate, consumer) == state) worst = state;
-  return worst;
+  return proven_state(*this, worst);
 }
 
 void CheckReport::restrict_to(Consumers requested) {
@@ -315,6 +318,7 @@ std::string to_text(const GateResult& gate) { return gate_text(gate); }
 std::string verdict_of(const CheckReport& report, Consumer consumer) {
   const GateState state = report.quality_state(consumer);
   std::string text(to_string(state));
+  if (state == GateState::not_checked) return text;
   const auto known =
       std::find_if(report.verdict_locations.begin(), report.verdict_locations.end(), [&](const ConsumerLocations& p) { return p.consumer == consumer; });
   if ((state == GateState::warn || state == GateState::fail) && known != report.verdict_locations.end() && known->n_locations && *known->n_locations > 0) {
@@ -344,6 +348,7 @@ std::string to_text(const CheckReport& report) {
   text += "  cells: " + n(report.cells.prisms) + " prisms, " + n(report.cells.pyramids) + " pyramids, " + n(report.cells.hexahedra) + " hexahedra, " +
           n(report.cells.tetrahedra) + " tetrahedra; " + n(report.n_nodes) + " nodes; boundary: " + n(report.n_boundary_triangles) + " triangles, " +
           n(report.n_boundary_quads) + " quads\n";
+  if (report.n_flipped_cells > 0) text += "  inverted cells of the file, flipped by the reader: " + n(report.n_flipped_cells) + "\n";
   if (!report.is_complete) text += "  Indices or points are invalid, so nothing else could be checked.\n";
   for (const std::string_view gate : k_valid_gates) text += gate_line(gate, state_of_gate(report, gate));
   if (report.is_complete) {
@@ -389,10 +394,12 @@ std::string to_json(const CheckReport& report) {
   for (const ConsumerLocations& locations : report.verdict_locations) {
     if (!report.consumers.has(locations.consumer)) continue;
     const bool is_of_cells = locations.consumer == Consumer::cell_centred;
+    const GateState state = report.quality_state(locations.consumer);
+    const bool is_counted = locations.n_locations && state != GateState::not_checked;
     json["verdicts"].push_back({{"consumer", to_string(locations.consumer)},
-                                {"state", state_name(report.quality_state(locations.consumer))},
-                                {"separate_places", locations.n_locations ? Json(*locations.n_locations) : Json(nullptr)},
-                                {"beyond", locations.n_locations ? Json(locations.n_beyond) : Json(nullptr)},
+                                {"state", state_name(state)},
+                                {"separate_places", is_counted ? Json(*locations.n_locations) : Json(nullptr)},
+                                {"beyond", is_counted ? Json(locations.n_beyond) : Json(nullptr)},
                                 {"total", is_of_cells ? report.cells.total() : report.n_nodes},
                                 {"items", is_of_cells ? "cells" : "nodes"}});
   }
@@ -404,6 +411,7 @@ std::string to_json(const CheckReport& report) {
                    {"hexahedra", report.cells.hexahedra},
                    {"tetrahedra", report.cells.tetrahedra},
                    {"total", report.cells.total()}};
+  json["flipped_cells"] = report.n_flipped_cells;
   json["nodes"] = report.n_nodes;
   json["boundary"] = {{"triangles", report.n_boundary_triangles}, {"quads", report.n_boundary_quads}};
   Json& gates = json["gates"];

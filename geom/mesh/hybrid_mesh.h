@@ -178,6 +178,7 @@ struct HybridMesh {
   std::vector<BoundaryQuad> boundary_quads;
   Column<PatchId, Patch> patches;
   std::vector<PeriodicSides> periodic;
+  std::int64_t n_flipped_cells = 0;  ///< cells that were inverted in the file and were flipped by its reader
 };
 
 CellCounts count_cells(const HybridMesh& mesh);

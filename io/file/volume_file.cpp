@@ -6,6 +6,7 @@
 #include "geom/base/error.h"
 #include "geom/mesh/open_faces.h"
 #include "io/file/format_table.h"
+#include "io/volume/volume_ugrid.h"
 
 namespace sterna::io {
 namespace {
@@ -50,6 +51,14 @@ void report_unused_points(HybridMesh& mesh, const std::string& source, Incomplet
   if (is_dropped) drop_unused_points(mesh);
 }
 
+void report_flipped_cells(const HybridMesh& mesh, const std::string& source, const RunContext& context) {
+  if (mesh.n_flipped_cells == 0) return;
+  context.warn(
+      source + ": " + std::to_string(mesh.n_flipped_cells) + " of " + std::to_string(count_cells(mesh).total()) +
+      " cells in the file are inverted (negative volume) and were flipped on reading. Solvers that read the file may reject it; write the mesh to a new "
+      "file with `sterna convert`, which has the corrected cells");
+}
+
 }  // namespace
 
 HybridMesh read_volume_file(const std::filesystem::path& path, const RunContext& context, Incomplete incomplete) {
@@ -62,6 +71,7 @@ HybridMesh read_volume_file(const std::filesystem::path& path, const RunContext&
   const StageTimer timer(context, "read");
   HybridMesh mesh = format.read_volume(path, context.part("read", 0.0, k_read_end));
   if (count_cells(mesh).total() == 0) return mesh;
+  report_flipped_cells(mesh, path.string(), context);
   complete_boundary(mesh, path.string(), incomplete, context.part("boundary", k_read_end, 1.0));
   report_unused_points(mesh, path.string(), incomplete, context);
   return mesh;
@@ -72,6 +82,11 @@ void write_volume_file(const HybridMesh& mesh, const std::filesystem::path& path
   const StageTimer timer(context, "write");
   if (format.write_numbered) format.write_numbered(mesh, path, cells, context.part("write", 0.0, 1.0));
   else format.write_volume(mesh, path, context.part("write", 0.0, 1.0));
+}
+
+std::string rounding_of_volume_file(const HybridMesh& mesh, const std::filesystem::path& path, const RunContext& context, std::string_view format_name) {
+  const bool may_round = format_name.empty() || format_to_write(path, FormatUse::write_volume, format_name).name == "UGRID";  // only by names of UGRID files
+  return may_round ? ugrid_rounding(mesh, path, context) : std::string();
 }
 
 }  // namespace sterna::io

@@ -2,6 +2,7 @@
 #pragma once
 
 #include <filesystem>
+#include <string>
 #include <string_view>
 
 #include "geom/base/run_context.h"
@@ -17,8 +18,8 @@ enum class Incomplete {
 };
 
 /// Reads a volume mesh; the format follows from the extension (".gz" accepted) and the contents. Cells are stored in the explicit arrays. Cells with the wrong
-/// winding, wedges among them, are flipped and counted in the log. Node and element numbers are range-checked. If a file has no boundary faces, the unmatched
-/// faces of cells become the wall "boundary", with a warning.
+/// winding are flipped and counted in the log; inverted cells (orientation.h) give a warning. Node and element numbers are range-checked. If a file has no
+/// boundary faces, the unmatched faces of cells become the wall "boundary", with a warning.
 /// \throws Error file_not_found, file_malformed (line or offset, expectation), unsupported_format.
 HybridMesh read_volume_file(const std::filesystem::path& path, const RunContext& context, Incomplete incomplete = Incomplete::kept);
 
@@ -28,5 +29,9 @@ HybridMesh read_volume_file(const std::filesystem::path& path, const RunContext&
 /// \throws Error unsupported_format, write_failed, overflow.
 void write_volume_file(const HybridMesh& mesh, const std::filesystem::path& path, const RunContext& context, std::string_view format_name = {},
                        Numbering cells = Numbering::lines);
+
+/// Returns why QUALITY gates measured on the mesh do not hold for this file: the rounding of its coordinates, with value and location. Returns an empty string
+/// if they hold. Arguments as for write_volume_file.
+std::string rounding_of_volume_file(const HybridMesh& mesh, const std::filesystem::path& path, const RunContext& context, std::string_view format_name = {});
 
 }  // namespace sterna::io

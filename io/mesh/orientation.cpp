@@ -1,6 +1,7 @@
 #include "io/mesh/orientation.h"
 
 #include <algorithm>
+#include <numeric>
 #include <utility>
 
 #include "geom/base/parallel.h"
@@ -138,6 +139,15 @@ std::int64_t turn_faces(HybridMesh& mesh, const RunContext& context) {
   return static_cast<std::int64_t>(reversed.size());
 }
 
+/// Returns the number of flipped cells that were inverted. Prisms that were all flipped follow another convention, unless the whole mesh is mirrored.
+std::int64_t n_inverted(const HybridMesh& mesh, const FlipCounts& counts) {
+  const std::int64_t n_prisms = counts.cells[static_cast<std::size_t>(CellKind::prism)];
+  const std::int64_t n_others = std::accumulate(counts.cells.begin(), counts.cells.end(), -n_prisms);
+  const bool is_mirrored = n_others > 0 && n_others == static_cast<std::int64_t>(mesh.tetrahedra.size() + mesh.pyramids.size() + mesh.hexahedra.size());
+  const bool is_convention = n_prisms == static_cast<std::int64_t>(mesh.prisms.size()) && !is_mirrored;
+  return n_others + (is_convention ? 0 : n_prisms);
+}
+
 }  // namespace
 
 FlipCounts orient_mesh(HybridMesh& mesh, const RunContext& context) {
@@ -147,6 +157,8 @@ FlipCounts orient_mesh(HybridMesh& mesh, const RunContext& context) {
   at(CellKind::pyramid) = flip_cells(mesh, mesh.pyramids, context);
   at(CellKind::prism) = flip_cells(mesh, mesh.prisms, context);
   at(CellKind::hexahedron) = flip_cells(mesh, mesh.hexahedra, context);
+  counts.inverted = n_inverted(mesh, counts);
+  mesh.n_flipped_cells = counts.inverted;
   counts.faces = turn_faces(mesh, context);
   for (const CellKind kind : {CellKind::tetrahedron, CellKind::pyramid, CellKind::prism, CellKind::hexahedron})
     if (at(kind) > 0) context.info("cells with wrong orientation, flipped: " + std::to_string(at(kind)) + " of kind " + std::string(to_string(kind)));

@@ -4,6 +4,7 @@
 #include <array>
 #include <cstdint>
 #include <filesystem>
+#include <string>
 
 #include "geom/base/run_context.h"
 #include "geom/mesh/hybrid_mesh.h"
@@ -24,6 +25,9 @@ HybridMesh read_volume_ugrid(const std::filesystem::path& path, const RunContext
 /// same double; b4 and lb4 round to single precision.
 /// \throws Error overflow (a count beyond 2^31-1 with 32-bit integers), mesh_invalid, write_failed, cancelled, unsupported_format.
 void write_volume_ugrid(const HybridMesh& mesh, const std::filesystem::path& path, const RunContext& context);
+
+/// Returns why QUALITY gates measured on the mesh do not hold for a file of this name (rounding_text); empty if they do, as for all files of double precision.
+std::string ugrid_rounding(const HybridMesh& mesh, const std::filesystem::path& path, const RunContext& context);
 
 /// Returns the path of the .mapbc file that the reader uses for a mesh; empty if there is none.
 std::filesystem::path ugrid_kinds_path(const std::filesystem::path& path);

@@ -13,6 +13,7 @@
 #include "io/names/name_rules.h"
 #include "io/output/cell_sections.h"
 #include "io/output/section_output.h"
+#include "io/volume/single_precision.h"
 #include "io/volume/volume_ugrid.h"
 
 namespace sterna::io {
@@ -146,17 +147,6 @@ std::string mapbc_text(const HybridMesh& mesh, const FacesByPatch& faces, const 
   return std::to_string(n) + "\n" + lines;
 }
 
-/// Returns the coordinates as read from a single-precision file.
-std::vector<Point> in_single_precision(const HybridMesh& mesh, const RunContext& context) {
-  const auto rounded = [](double value) { return static_cast<double>(static_cast<float>(value)); };
-  std::vector<Point> locations(mesh.points.size());
-  parallel_for(context, locations.size(), [&](std::size_t i) {
-    const Point& p = mesh.points.raw()[i];
-    locations[i] = {rounded(p.x), rounded(p.y), rounded(p.z)};
-  });
-  return locations;
-}
-
 /// Warns about the node displacement caused by single precision.
 /// \throws Error mesh_invalid if cells are flat or folded at the coordinates of the file.
 void require_single_precision_cells(const HybridMesh& mesh, const std::filesystem::path& path, const RunContext& context) {
@@ -182,6 +172,10 @@ void require_single_precision_cells(const HybridMesh& mesh, const std::filesyste
   }
   context.warn(path.string() + ": the file is single precision: nodes move by up to " + number_text(moved, 2) +
                " m; .b8.ugrid and .lb8.ugrid are double precision");
+  if (const std::string rounding = rounding_text(worst_rounded_edge(mesh, locations, context)); !rounding.empty())
+    context.warn(path.string() + ": " + rounding +
+                 ", so that QUALITY gates measured on the mesh do not hold for the file; write .lb8.ugrid or .b8.ugrid, or run `sterna check " + path.string() +
+                 "`");
 }
 
 }  // namespace
@@ -205,6 +199,11 @@ void write_volume_ugrid(const HybridMesh& mesh, const std::filesystem::path& pat
   const StageTimer timer(context, "sync");
   file.commit();
   conditions.commit();
+}
+
+std::string ugrid_rounding(const HybridMesh& mesh, const std::filesystem::path& path, const RunContext& context) {
+  if (!ugrid_variant(path).is_single) return {};
+  return rounding_text(worst_rounded_edge(mesh, in_single_precision(mesh, context), context));
 }
 
 }  // namespace sterna::io

@@ -653,7 +653,7 @@ int execute(const CheckCommand& command, const CommandContext& context) {
   for (const std::string& text : command.gates) set_gate_limits(text, limits);
   if (!command.cells.empty()) require_cells_output(command.cells, command.input);
   const std::array files = {std::filesystem::path(command.input)};
-  const CheckOptions options = command.options.to_options(limits, consumers_of_files(files), "--for");
+  const CheckOptions options = command.options.to_options(limits, consumers_of_files(files), CheckSettings::k_command_names);
   const MeshValue mesh = read_mesh({command.input, command.input}, context.run.part("read", 0.0, 0.3));
   if (count_cells(mesh.mesh).total() == 0 && !mesh.mesh.boundary_triangles.empty())
     refuse_to_check_surface(

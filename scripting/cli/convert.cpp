@@ -6,6 +6,7 @@
 #include "io/file/format_table.h"
 #include "io/file/input_hash.h"
 #include "io/file/surface_file.h"
+#include "io/file/volume_file.h"
 #include "scripting/values/manifest.h"
 #include "scripting/values/mesh_manifest.h"
 #include "scripting/values/summary.h"
@@ -22,8 +23,8 @@ std::string convert_volume(const InputPath& input, const MeshValue& value, const
   const HybridMesh& mesh = value.mesh;
   const std::optional<std::string> manifest = fitting_manifest(input, value.inputs.front().hash, RunContext());
   write_mesh_alone(mesh, output, settings.format, settings.writing, context);
-  if (manifest) write_manifest_of_copy(*manifest, output);
-  else write_manifest(value, output, context);
+  if (manifest) write_manifest_of_copy(*manifest, output, io::rounding_of_volume_file(mesh, output, context, settings.format));
+  else write_manifest(value, output, context, settings.format);
   return fmt::format("volume mesh, {} nodes, {} cells, {} patches", count_text(static_cast<std::int64_t>(mesh.points.size())),
                      count_text(count_cells(mesh).total()), mesh.patches.size());
 }

@@ -40,7 +40,7 @@ wall = surface_mesh{ model, max_edge = 0.5 }
 class = envelope.classify{ wall }
 env = make_envelope{ wall, layers = 3, first_height = 0.01, max_thickness = 0.1 }
 tets = tetrahedra{ env, farfield = sphere{ radius = 6 } }
-mesh = prisms{ env, tets }
+mesh = finish_mesh{ env, tets }
 model:write("model.step", "model.igs"); sting_model:write "sting.step"
 aircraft{ body, fin, unite = false }:write "widebody.smx"; airliner = read_smx "widebody.smx"
 wall:write("wing.stl", "body.stl"); surface_mesh{ sting_model, max_edge = 0.5 }:write "sting.stl"

@@ -224,8 +224,9 @@ ScriptValue check_mesh(const ScriptCall& call) {
   if (const ScriptValue* value = reader.field("wall")) {
     if (const auto* surface = std::get_if<SurfaceHandle>(value)) wall = *surface;
     else reader.add_problem("wall: expected the surface of surface_mesh, not " + std::string(type_text(*value)));
-    if (!options.to_options().quality) reader.add_problem("wall: the gates G17 and G18 belong to quality, which is false");
+    if (!options.quality) reader.add_problem("wall: the gates G17 and G18 belong to quality, which is false");
   }
+  if (const auto found = options.contradiction(limits, {}, CheckSettings::k_script_names)) reader.add_problem(found->problem + "; " + found->remedy);
   reader.finish();
   if (wall) require_model_wall(*wall, call.attempted());
   // A mesh that was made in this run has been checked with the default options, and cannot have changed since.

@@ -1,6 +1,10 @@
 // The user options of mesh:check{} and `sterna check`.
 #pragma once
 
+#include <optional>
+#include <string>
+#include <string_view>
+
 #include "geom/base/schema.h"
 #include "geom/mesh/check.h"
 #include "scripting/values/consumers.h"
@@ -15,18 +19,21 @@ struct CheckSettings {
   bool strict = false;
   std::string solvers = "automatic";
 
-  /// \p limits gate_limits.h; \p usual consumers if the solvers are automatic
-  CheckOptions to_options(const GateTable& limits = {}, Consumers usual = {}, std::string_view option = "solvers") const {
-    CheckOptions options;
-    options.consumers = consumers_of_solvers(solvers, usual, option);
-    options.intersections = intersections;
-    options.quality = quality;
-    options.findings_per_kind = findings_per_kind;
-    options.quality = options.quality || strict;
-    options.cell_centred = cell_centred;
-    options.limits = limits;
-    return options;
-  }
+  /// Spelling of the options in messages.
+  struct Names {
+    std::string_view solvers, no_cell_centred;
+  };
+  static constexpr Names k_script_names{"solvers", "cell_centred = false"}, k_command_names{"--for", "--no-cell-centred"};
+  /// Two options that exclude each other.
+  struct Contradiction {
+    std::string problem, remedy;
+  };
+  /// Returns the first pair of options of which one requests gates that the other switches off. Arguments as for to_options().
+  std::optional<Contradiction> contradiction(const GateTable& limits, Consumers usual, const Names& names) const;
+
+  /// \p limits gate_limits.h; \p usual consumers if the solvers are automatic, from which `cell_centred = false` removes the cell-centred solvers
+  /// \throws Error(bad_argument) if the options contradict each other, or if a solver is unknown
+  CheckOptions to_options(const GateTable& limits = {}, Consumers usual = {}, const Names& names = k_script_names) const;
   /// Returns true if the mesh passes: VALID and, with `strict`, no QUALITY gate FAILs for the requested solvers.
   bool accepts(const CheckReport& report) const { return report.is_valid() && (!strict || report.quality_state() != GateState::fail); }
 };

@@ -94,6 +94,16 @@ Json improvement_json(const volmesh::ImproveReport& report) {
 
 }  // namespace
 
+std::string unmeasured_quality_json(const std::string& rounding) {
+  return Json({{"verdict", "not checked"},
+               {"reason", "not measured on the file: " + rounding},
+               {"failed", Json::array()},
+               {"warned", Json::array()},
+               {"forced", Json::object()},
+               {"measures", Json::object()}})
+      .dump();
+}
+
 std::string regions_json(const HybridMesh& mesh) {
   Json regions = Json::array();
   for (const VolumeRegion& region : volume_regions(mesh)) regions.push_back({{"volume", region.volume}, {"patches", region.patches}});
@@ -111,7 +121,8 @@ std::string check_text(const CheckReport& report, const HybridMesh& mesh) {
   return to_text(report) + (regions.empty() ? "" : "regions of fluid: " + regions + "\n");
 }
 
-std::string manifest_json(const MeshValue& mesh, const std::filesystem::path& output, std::uint64_t seed, const std::string& hash) {
+std::string manifest_json(const MeshValue& mesh, const std::filesystem::path& output, std::uint64_t seed, const std::string& hash,
+                          const std::string& rounding) {
   Json json;
   json["schema"] = "sterna-manifest-1";
   json["program"] = "sterna " STERNA_VERSION;
@@ -170,14 +181,16 @@ std::string manifest_json(const MeshValue& mesh, const std::filesystem::path& ou
     if (!mesh.origin->is_reproducible) json["reproducible"] = "not reproducible: a time or memory limit decided which engine made the tetrahedra";
   }
   json["verdict"] = !mesh.check ? "not checked" : mesh.check->is_valid() ? "VALID" : "INVALID";
-  if (mesh.check && mesh.check->quality_measured) json["quality"] = quality_json(*mesh.check);
+  if (mesh.check && mesh.check->quality_measured)
+    json["quality"] = rounding.empty() ? quality_json(*mesh.check) : Json::parse(unmeasured_quality_json(rounding));
   return json.dump(2) + "\n";
 }
 
 std::filesystem::path manifest_path(const std::filesystem::path& output) { return (output.has_filename() ? output : output.parent_path()).string() + ".json"; }
 
-void write_manifest(const MeshValue& mesh, const std::filesystem::path& output, const RunContext& context) {
-  io::write_whole(manifest_path(output), manifest_json(mesh, output, context.seed(), io::hash_input(output)));
+void write_manifest(const MeshValue& mesh, const std::filesystem::path& output, const RunContext& context, std::string_view format) {
+  const std::string rounding = mesh.check ? io::rounding_of_volume_file(mesh.mesh, output, context, format) : std::string();
+  io::write_whole(manifest_path(output), manifest_json(mesh, output, context.seed(), io::hash_input(output), rounding));
 }
 
 }  // namespace sterna::scripting

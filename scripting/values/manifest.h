@@ -3,6 +3,7 @@
 
 #include <filesystem>
 #include <string>
+#include <string_view>
 
 #include "scripting/values/verbs.h"
 
@@ -10,7 +11,12 @@ namespace sterna::scripting {
 
 /// Returns the JSON text of the manifest, schema "sterna-manifest-1". \param hash io::hash_input of the finished file, by which a later run verifies that the
 /// manifest belongs to this file
-std::string manifest_json(const MeshValue& mesh, const std::filesystem::path& output, std::uint64_t seed, const std::string& hash = {});
+/// \param rounding io::rounding_of_volume_file; if it is not empty, the manifest has this reason instead of the states of the QUALITY gates
+std::string manifest_json(const MeshValue& mesh, const std::filesystem::path& output, std::uint64_t seed, const std::string& hash = {},
+                          const std::string& rounding = {});
+
+/// Returns the entry "quality" of the manifest of a file whose coordinates are rounded. \param rounding io::rounding_of_volume_file, not empty
+std::string unmeasured_quality_json(const std::string& rounding);
 
 /// Returns the disconnected regions of fluid as a JSON array of their volumes (m^3) and patches, the largest first.
 std::string regions_json(const HybridMesh& mesh);
@@ -22,7 +28,8 @@ std::string check_text(const CheckReport& report, const HybridMesh& mesh);
 std::filesystem::path manifest_path(const std::filesystem::path& output);
 
 /// Writes the manifest beside the mesh, atomically. \pre `output` is the finished file
+/// \param format name of the format in the table; empty: given by the extension
 /// \throws Error(write_failed).
-void write_manifest(const MeshValue& mesh, const std::filesystem::path& output, const RunContext& context);
+void write_manifest(const MeshValue& mesh, const std::filesystem::path& output, const RunContext& context, std::string_view format = {});
 
 }  // namespace sterna::scripting

@@ -189,10 +189,11 @@ std::string why_kinds_are_unknown(const InputPath& file) {
          (json && is_ours(*json) ? "its manifest " + manifest + " is of another version of the file" : "there is no manifest " + manifest + " with kinds");
 }
 
-void write_manifest_of_copy(const std::string& manifest, const std::filesystem::path& to) {
+void write_manifest_of_copy(const std::string& manifest, const std::filesystem::path& to, const std::string& rounding) {
   Json json = Json::parse(manifest);
   json["output"] = (to.has_filename() ? to : to.parent_path()).filename().string();
   json["output_xxh3_128"] = io::hash_input(to);
+  if (!rounding.empty() && json.contains("quality")) json["quality"] = Json::parse(unmeasured_quality_json(rounding));
   io::write_whole(manifest_path(to), json.dump(2) + "\n");
 }
 

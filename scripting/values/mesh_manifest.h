@@ -27,7 +27,8 @@ std::string quoted_list(const std::set<std::string>& names);
 std::string why_kinds_are_unknown(const InputPath& file);
 
 /// Writes the manifest of `from` beside `to`, which holds the same mesh or surface in another format.
+/// \param rounding io::rounding_of_volume_file; if it is not empty, it replaces the states of QUALITY gates in the manifest of a mesh
 /// \throws Error(write_failed)
-void write_manifest_of_copy(const std::string& manifest, const std::filesystem::path& to);
+void write_manifest_of_copy(const std::string& manifest, const std::filesystem::path& to, const std::string& rounding = {});
 
 }  // namespace sterna::scripting

@@ -125,8 +125,25 @@ void warn_of_collapsed_lines(const HybridMesh& mesh, const RunContext& context) 
                   n == 1 ? std::string("a vertex") : fmt::format("{} vertices", n), location.x, location.y, location.z));
 }
 
+/// Sets the range of the temperatures that the conditions of the case have.
+void set_temperatures(FoamSetup& setup, const CaseBoundaries& boundaries) {
+  if (!setup.is_compressible) return;
+  setup.lowest_temperature = setup.flow.temperature;
+  setup.highest_temperature = setup.flow.temperature + 0.5 * setup.flow.speed * setup.flow.speed / k_heat_capacity;
+  const auto extend = [&](double temperature) {
+    if (is_automatic(temperature)) return;
+    setup.lowest_temperature = std::min(setup.lowest_temperature, temperature);
+    setup.highest_temperature = std::max(setup.highest_temperature, temperature);
+  };
+  extend(setup.common.wall_temperature);
+  for (const auto& [name, boundary] : boundaries) extend(boundary.total_temperature);
+  double jumps = 0.0;
+  for (const auto& [name, boundary] : boundaries) jumps += std::max(boundary.temperature_jump, 0.0);
+  setup.highest_temperature += jumps;
+}
+
 /// Warns about options that are given but have no effect in this case.
-void report_without_effect(const FoamSetup& setup, const RunContext& context) {
+void report_without_effect(const FoamSetup& setup, const CaseBoundaries& boundaries, const RunContext& context) {
   const FoamOptions &given = setup.options, usual;
   const auto warn = [&](bool is_given, const char* name, const std::string& why) {
     if (is_given) context.warn(std::string("OpenFOAM: ") + name + " has no effect: " + why);
@@ -139,6 +156,12 @@ void report_without_effect(const FoamSetup& setup, const RunContext& context) {
   warn(!is_automatic(given.residual) && !given.steady, "residual", "the run is transient and ends at end_time");
   warn(setup.common.iterations != CaseOptions{}.iterations && !given.steady, "iterations", "the run is transient and ends at end_time");
   warn(!is_automatic(setup.common.wall_temperature) && !setup.is_compressible, "wall_temperature", "the flow is incompressible and has no temperature");
+  warn(!is_automatic(setup.common.wall_temperature) && setup.is_compressible && !setup.is_viscous, "wall_temperature",
+       "walls of the model euler have no temperature");
+  const bool is_heated = std::ranges::any_of(boundaries, [](const auto& entry) { return !is_automatic(entry.second.total_temperature); });
+  warn(is_heated && !setup.is_compressible, "total_temperature", "the flow is incompressible and has no temperature");
+  const bool has_jump = std::ranges::any_of(boundaries, [](const auto& entry) { return entry.second.temperature_jump != 0.0; });
+  warn(has_jump && !setup.is_compressible, "temperature_jump", "the flow is incompressible and has no temperature");
 }
 
 }  // namespace
@@ -165,6 +188,7 @@ FoamCase foam_case(const HybridMesh& mesh, const FoamOptions& options, const Cas
   require_foam_flow(options, flow, problems);
   complete_flow(setup, context);
   set_turbulence(setup);
+  set_temperatures(setup, boundaries);
   choose_correction(setup, non_orthogonality);
   setup.velocity = setup.flow.speed * direction_of(mesh, case_patches, common);
   setup.area = reference_area(reference, case_patches);
@@ -190,7 +214,7 @@ FoamCase foam_case(const HybridMesh& mesh, const FoamOptions& options, const Cas
   for (CaseFile& file : foam_settings(setup)) result.files.push_back(std::move(file));
   report(setup, case_patches, reference, context);
   if (setup.is_viscous) warn_of_collapsed_lines(mesh, context);
-  report_without_effect(setup, context);
+  report_without_effect(setup, boundaries, context);
   return result;
 }
 

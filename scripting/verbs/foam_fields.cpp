@@ -203,6 +203,9 @@ class FoamFields {
     }
     const std::string value = case_number((is_front ? 1.0 : -1.0) * (setup_.is_compressible ? *jump : *jump / setup_.density));
     c.pressure = "type fixedJump; patchType cyclic; jump uniform " + value + "; value uniform VALUE;";
+    const double warmer = boundaries_.of(mesh_.patches[front]).temperature_jump;
+    if (setup_.is_compressible && warmer != 0.0)
+      c.temperature = "type fixedJump; patchType cyclic; jump uniform " + case_number(is_front ? warmer : -warmer) + "; value uniform VALUE;";
     return c;
   }
 

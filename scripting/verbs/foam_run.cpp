@@ -237,6 +237,10 @@ class RunFiles {
   std::string final_stage() const {
     std::string text =
         "// Second order: Allrun copies stage.start or stage.final here.\nconvectionOfU bounded " + s_.convection() + ";\ncorrection " + s_.correction + ";\n";
+    if (s_.is_damped())
+      text +=
+          "// SIMPLE, relaxed more than in the start: with SIMPLEC inviscid flow diverged at sharp edges within 40 iterations of second order.\n"
+          "consistentPressure no;\nrelaxationOfP 0.3;\nrelaxationOfU 0.6;\n";
     if (s_.is_transonic())
       text +=
           "gradients pointCellsLeastSquares;\ngradientOfU cellLimited pointCellsLeastSquares 0.5;\n// First order for the pressure smears shocks over a tenth "
@@ -247,6 +251,7 @@ class RunFiles {
     std::string text =
         "// First order, with a correction of normal gradients that is limited to half of the rest: a robust start from uniform flow.\nconvectionOfU bounded "
         "Gauss upwind;\ncorrection limited corrected 0.33;\n";
+    if (s_.is_damped()) text += "consistentPressure yes;\nrelaxationOfP 1;\nrelaxationOfU 0.8;\n";
     if (s_.is_transonic())
       text +=
           "// Limited, so that no value at a face exceeds the values of the cells around: without the limiter the start from uniform flow diverges where "

@@ -14,12 +14,14 @@
 namespace sterna::scripting {
 namespace {
 
-/// Heat capacity of air at constant pressure, J / (kg K).
-constexpr double k_heat_capacity = volmesh::k_gas_constant * volmesh::k_heat_ratio / (volmesh::k_heat_ratio - 1.0);
-
 constexpr double k_prandtl = 0.72;          ///< Prandtl number of air
+constexpr double k_euler_reynolds = 1e8;    ///< Reynolds number of cases without viscosity
 constexpr double k_lengths_in_time = 20.0;  ///< default duration of a transient run, in reference lengths over the flow's speed
 constexpr double k_first_step = 1e-3;       ///< first time step, in reference lengths over the flow's speed; later steps follow from the Courant number
+
+constexpr std::string_view k_euler_comment =
+    "// Inviscid flow: walls slip, and the viscosity is that of a Reynolds number of 1e8. It is far below the numerical viscosity of any mesh. Without it the "
+    "momentum\n// equation of a cell through whose faces nothing flows has no coefficient, and the solver stops.\n";
 
 std::string dictionary(std::string_view object, std::string_view location, const std::string& text) {
   return io::foam_header(object, "dictionary", location) + text;
@@ -52,7 +54,9 @@ class FoamSettings {
       all.push_back({.path = folder + "/" + name, .text = dictionary(name, folder, text)});
     };
     if (s_.is_compressible) add("constant", "thermophysicalProperties", gas());
-    else add("constant", "transportProperties", "transportModel Newtonian;\nnu " + case_number(s_.is_viscous ? s_.nu : 0.0) + ";\n");
+    else
+      add("constant", "transportProperties",
+          "transportModel Newtonian;\n" + (s_.is_viscous ? std::string() : std::string(k_euler_comment)) + "nu " + case_number(viscosity()) + ";\n");
     add("constant", "turbulenceProperties", turbulence());
     add("system", "controlDict", control());
     add("system", "fvSchemes", schemes());
@@ -64,22 +68,27 @@ class FoamSettings {
   }
 
  private:
+  /// Returns the kinematic viscosity, m^2/s. Without any viscosity the momentum equation of a cell through whose faces nothing flows has no coefficient, e.g.
+  /// of a tetrahedron with three faces on slip walls, and the solver stops with a division by zero in the first iteration.
+  double viscosity() const { return s_.is_viscous ? s_.nu : s_.flow.speed * s_.length / k_euler_reynolds; }
+
   std::string turbulence() const {
     if (!s_.is_turbulent) return "simulationType laminar;\n";
     return "simulationType RAS;\nRAS\n{\n    RASModel " + s_.model + ";\n    turbulence on;\n    printCoeffs on;\n}\n";
   }
 
   std::string gas() const {
-    const double mu = s_.nu * s_.density;
+    const double mu = viscosity() * s_.density;
     // A viscosity given by the user is constant; that of air follows Sutherland's law.
     constexpr double k_same = 1e-3;
     const bool is_air = std::abs(mu - volmesh::viscosity_of_air(s_.flow.temperature)) <= k_same * mu;
     const bool is_sutherland = s_.is_viscous && is_air;
-    return std::string("thermoType\n{\n    type hePsiThermo;\n    mixture pureMixture;\n    transport ") + (is_sutherland ? "sutherland" : "const") +
+    return (s_.is_viscous ? std::string() : std::string(k_euler_comment)) +
+           std::string("thermoType\n{\n    type hePsiThermo;\n    mixture pureMixture;\n    transport ") + (is_sutherland ? "sutherland" : "const") +
            ";\n    thermo hConst;\n    equationOfState perfectGas;\n    specie specie;\n    energy sensibleInternalEnergy;\n}\n\nmixture\n{\n    specie { "
            "molWeight 28.9644; }\n    thermodynamics { Cp " +
-           case_number(k_heat_capacity) + "; Hf 0; }\n    transport { " +
-           (is_sutherland ? "As 1.458e-06; Ts 110.4; Pr " : "mu " + case_number(s_.is_viscous ? mu : 0.0) + "; Pr ") + case_number(k_prandtl) + "; }\n}\n";
+           case_number(k_heat_capacity) + "; Hf 0; }\n    transport { " + (is_sutherland ? "As 1.458e-06; Ts 110.4; Pr " : "mu " + case_number(mu) + "; Pr ") +
+           case_number(k_prandtl) + "; }\n}\n";
   }
 
   std::string forces(const std::string& name, const std::string& type, const std::string& more) const {
@@ -139,8 +148,8 @@ class FoamSettings {
       const Vec3 drag = s_.drag_direction(), lift = s_.lift_direction();  // pitching moments are positive nose-up
       text += forces("forceCoeffs", "forceCoeffs",
                      "        dragDir " + foam_vector({clean_component(drag.x, 1.0), clean_component(drag.y, 1.0), clean_component(drag.z, 1.0)}) +
-                         ";\n        liftDir " + foam_vector({clean_component(lift.x, 1.0), 0.0, clean_component(lift.z, 1.0)}) +
-                         ";\n        pitchAxis (0 1 0);\n        magUInf " + case_number(s_.flow.speed) + ";\n        lRef " + case_number(s_.length) +
+                         ";\n        liftDir " + foam_vector({clean_component(lift.x, 1.0), 0.0, clean_component(lift.z, 1.0)}) + ";\n        pitchAxis " +
+                         foam_vector(s_.pitch_axis()) + ";\n        magUInf " + case_number(s_.flow.speed) + ";\n        lRef " + case_number(s_.length) +
                          ";\n        Aref " + case_number(s_.area) + ";\n");
     }
     if (s_.is_viscous)
@@ -180,7 +189,7 @@ class FoamSettings {
           "shocks form.\n";
       scheme = "cellLimited pointCellsLeastSquares 1";
     }
-    if (s_.is_turbulent) {
+    if (s_.is_turbulent || !s_.is_viscous) {
       text +=
           "// The pressure gradient is computed from values at faces, as in the pressure equation: by least squares the thin cells over a sharp trailing "
           "edge\n// become unstable, in gases within 30 iterations, otherwise after 100 to 200.\n";
@@ -245,9 +254,12 @@ class FoamSettings {
     std::string fields = solved() + " ";
     for (std::size_t at = 0, end = fields.find(' '); end != std::string::npos; at = end + 1, end = fields.find(' ', at))
       controls += "        " + fields.substr(at, end - at) + " " + case_number(s_.residual_limit()) + ";\n";
-    text += "SIMPLE\n{\n    consistent yes;\n    nNonOrthogonalCorrectors " + std::to_string(s_.n_correctors) + ";\n" + limits + reference +
+    if (s_.is_damped()) text = "#include \"stage\"\n\n" + text;
+    text += std::string("SIMPLE\n{\n    consistent ") + (s_.is_damped() ? "$consistentPressure" : "yes") + ";\n    nNonOrthogonalCorrectors " +
+            std::to_string(s_.n_correctors) + ";\n" + limits + reference +
             (s_.residual_limit() > 0.0 ? "    residualControl\n    {\n" + controls + "    }\n" : "") + "}\n\n";
     if (s_.model == "SpalartAllmaras") text += "// At 0.7 for nuTilda, nuTilda and the velocity in the buffer layer oscillate without converging.\n";
+    if (s_.is_damped()) return text + "relaxationFactors\n{\n    fields { p $relaxationOfP; }\n    equations { p 1; U $relaxationOfU; }\n}\n";
     return text + "relaxationFactors\n{\n    " + (s_.is_compressible ? "fields { p 1; rho 1; }\n    " : "") + "equations { p 1; U 0.8; " +
            (s_.is_compressible ? "e 0.8; " : "") + "nuTilda 0.4; \"(k|omega)\" 0.7; }\n}\n";
   }
@@ -256,8 +268,7 @@ class FoamSettings {
     return "// The start from uniform flow gives single cells extreme values: below zero the viscosity of air has no value, and the solver aborts. Where the "
            "temperature ends at one of\n// these limits (postProcessing/temperature has the range of every step), do not trust the "
            "flow.\nlimit_temperature\n{\n    type limitTemperature;\n    active yes;\n    selectionMode all;\n    min " +
-           case_number(0.3 * s_.flow.temperature) + ";\n    max " +
-           case_number(3.0 * (s_.flow.temperature + 0.5 * s_.flow.speed * s_.flow.speed / k_heat_capacity)) + ";\n}\n";
+           case_number(0.3 * s_.lowest_temperature) + ";\n    max " + case_number(3.0 * s_.highest_temperature) + ";\n}\n";
   }
 
   std::string velocity_bound() const {

@@ -6,8 +6,12 @@
 #include <vector>
 
 #include "scripting/verbs/foam_case.h"
+#include "volmesh/flow/standard_atmosphere.h"
 
 namespace sterna::scripting {
+
+/// Heat capacity of air at constant pressure, J / (kg K).
+inline constexpr double k_heat_capacity = volmesh::k_gas_constant * volmesh::k_heat_ratio / (volmesh::k_heat_ratio - 1.0);
 
 struct FoamSetup {
   FoamOptions options;
@@ -34,7 +38,8 @@ struct FoamSetup {
   std::string correction_reason;         ///< reason for that scheme, a sentence for fvSchemes
   int n_correctors = 0;                  ///< number of solutions for the pressure in addition to the first
   std::string settles_by;                ///< files below postProcessing whose values end a steady run when they settle; empty: only residuals end the run
-  bool has_fast_openings = false;        ///< there are openings or discs where velocities far above the flow's are correct (contractions, jets)
+  double lowest_temperature = 0.0, highest_temperature = 0.0;  ///< K, of the free stream (highest: its total temperature), walls and openings
+  bool has_fast_openings = false;  ///< there are openings or discs where velocities far above the flow's are correct (contractions, jets)
 
   /// Returns the initial residuals at which a steady run ends; 0: residuals do not end the run. On layers of thin cells all residuals are below 1e-6 while
   /// forces still change by a percent in 100 iterations (docs/measurements/solvers.md). Therefore forces decide if there are any.
@@ -49,12 +54,21 @@ struct FoamSetup {
     constexpr double k_transonic = 0.6;  // Mach number of the free stream
     return is_compressible && flow.mach >= k_transonic;
   }
+  /// Returns true for flows whose second-order stage needs SIMPLE and more relaxation than the first-order stage.
+  bool is_damped() const { return options.steady && !is_viscous && !is_compressible; }
   /// Returns the unit vector along the free stream.
   Vec3 drag_direction() const { return normalized(velocity); }
-  /// Returns the unit vector perpendicular to the free stream, in the plane of x and z.
+  /// Returns the unit vector perpendicular to the free stream, in the plane of x and z, upwards for every horizontal flow.
   Vec3 lift_direction() const {
     const Vec3 drag = drag_direction();
-    return std::hypot(drag.x, drag.z) > 0.0 ? normalized(Vec3{-drag.z, 0.0, drag.x}) : Vec3{0.0, 0.0, 1.0};
+    if (std::hypot(drag.x, drag.z) == 0.0) return {0.0, 0.0, 1.0};
+    return normalized(drag.x < 0.0 ? Vec3{drag.z, 0.0, -drag.x} : Vec3{-drag.z, 0.0, drag.x});
+  }
+  /// Returns the axis of pitching moments, which are positive nose-up: y for a flow along x, otherwise horizontal and perpendicular to the flow.
+  Vec3 pitch_axis() const {
+    const Vec3 drag = drag_direction();
+    if (std::abs(drag.y) > std::abs(drag.x)) return {drag.y > 0.0 ? -1.0 : 1.0, 0.0, 0.0};
+    return {0.0, drag.x < 0.0 ? -1.0 : 1.0, 0.0};
   }
   /// Returns the second-order scheme for the convection of the velocity. It works component by component in laminar incompressible flow, else along the
   /// steepest direction.

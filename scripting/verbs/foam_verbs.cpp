@@ -1,7 +1,10 @@
 #include "scripting/verbs/foam_verbs.h"
 
 #include <algorithm>
+#include <array>
 #include <filesystem>
+#include <string>
+#include <string_view>
 
 #include "geom/base/error.h"
 #include "geom/mesh/numbering.h"
@@ -20,7 +23,9 @@
 namespace sterna::scripting {
 namespace {
 
-constexpr double k_measured = 0.5;                          ///< fraction of the progress after measuring the mesh
+constexpr double k_measured = 0.5;  ///< fraction of the progress after measuring the mesh
+/// Everything that foam_case and programs of OpenFOAM write into a case without results.
+constexpr std::array<std::string_view, 8> k_case_items = {"0", "constant", "system", "Allrun", "Allclean", "case.foam", "mesh.json", "dynamicCode"};
 constexpr std::string_view k_proof = "system/controlDict";  ///< file that marks a folder as a case
 
 /// \param mesh the mesh for the solver, \param made its origin
@@ -59,13 +64,23 @@ void require_new_case(const std::filesystem::path& folder, const std::string& at
                  .attempted = attempted,
                  .problem = "the path " + whole + " has a blank or a quotation mark; OpenFOAM's programs do not run in such a folder",
                  .hint = "choose a folder without them"});
-  std::vector<std::string> results;
+  std::vector<std::string> results, others;
   std::error_code status;  // if the folder does not exist: there are no results
   for (const auto& entry : std::filesystem::directory_iterator(folder, status)) {
     const std::string name = entry.path().filename().string();
     const bool is_time = name != "0" && std::ranges::all_of(name, [](char c) { return (c >= '0' && c <= '9') || c == '.' || c == 'e' || c == '-'; });
     if (entry.is_directory(status) && (is_time || name == "postProcessing" || name.starts_with("processor"))) results.push_back(name);
+    else if (std::ranges::find(k_case_items, name) == k_case_items.end() && !name.starts_with("log.") && !name.ends_with(".foam")) others.push_back(name);
   }
+  const bool is_other = std::filesystem::exists(folder / "system", status) && !std::filesystem::exists(folder / "mesh.json", status);
+  if (results.empty() && (is_other || !others.empty()))
+    throw Error({.code = ErrorCode::write_failed,
+                 .attempted = attempted,
+                 .problem = "the folder " + folder.string() +
+                            (is_other ? " holds a case that foam_case did not write"
+                                      : " holds \"" + *std::ranges::min_element(others) + "\", which foam_case did not write") +
+                            "; a new case would replace it",
+                 .hint = "choose another name, or move what is there"});
   if (results.empty()) return;
   throw Error({.code = ErrorCode::write_failed,
                .attempted = attempted,

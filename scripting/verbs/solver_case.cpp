@@ -63,6 +63,31 @@ std::vector<std::string> names_of_patches(const HybridMesh& mesh) {
   return names;
 }
 
+/// Adds a problem if nothing drives the flow, if it has a way in or out only, or if the direction of an inflow is unknown.
+void require_driven_flow(const HybridMesh& mesh, bool has_farfield, const CasePatches& case_patches, CaseProblems& problems) {
+  const bool has_inflow = !case_patches.inflows.empty(), has_outflow = !case_patches.outflows.empty();
+  const std::string remedy = ": give their kinds, e.g. kinds = { [\"outer*\"] = \"farfield\" } (on the command line --kind \"outer*=farfield\")";
+  if (!has_farfield && !has_inflow && !has_outflow && mesh.periodic.empty())
+    problems.add("the mesh has no farfield, inflow or outflow, so nothing drives the flow" + remedy);
+  if (!has_farfield && has_inflow != has_outflow)
+    problems.add(std::string("the mesh has ") + (has_inflow ? "an inflow, but no outflow or farfield" : "an outflow, but no inflow or farfield") + remedy);
+  constexpr double k_least_share = 0.1;  // of the mean normal's length; 0.5 is a hemisphere
+  for (const PatchId p : case_patches.inflows)
+    if (norm(case_patches.facts[p].area) < k_least_share * case_patches.facts[p].size)
+      problems.add("the inflow \"" + mesh.patches[p].name +
+                   "\" has no direction: the normals of its faces cancel. Make it a farfield, or divide it into patches with one direction each");
+}
+
+/// Adds a problem if the model may be a half model, but a patch of symmetry is not plane.
+void require_planes(const HybridMesh& mesh, const CasePatches& case_patches, CaseProblems& problems) {
+  constexpr double k_least_share = 0.99;  // of the length of a plane's mean normal
+  for (const PatchId p : mesh.patches.ids())
+    if (mesh.patches[p].kind == PatchKind::symmetry && case_patches.facts[p].n_faces > 0 && !is_periodic(mesh, p) &&
+        norm(case_patches.facts[p].area) < k_least_share * case_patches.facts[p].size)
+      problems.add("patch \"" + mesh.patches[p].name +
+                   "\" is of kind symmetry, but not plane, so a half model cannot be recognised: give half = \"yes\" or \"no\", or another kind");
+}
+
 void find_half(const CaseOptions& options, int n_symmetry, CasePatches& case_patches, CaseProblems& problems) {
   case_patches.is_half = options.half == "yes" || (options.half == "automatic" && n_symmetry > 0);
   if (options.half == "automatic" && n_symmetry > 1 && !case_patches.is_internal)
@@ -194,6 +219,8 @@ CasePatches find_case_patches(const HybridMesh& mesh, const CaseOptions& options
     if (kind == PatchKind::outflow) case_patches.outflows.push_back(p);
   }
   case_patches.is_tunnel = has_opening && !has_farfield;
+  require_driven_flow(mesh, has_farfield, case_patches, problems);
+  if (options.half == "automatic") require_planes(mesh, case_patches, problems);
   find_monitored(mesh, options, case_patches, problems);
   find_half(options, n_symmetry, case_patches, problems);
   return case_patches;
@@ -226,6 +253,9 @@ CaseBoundary UsedBoundaries::of(const Patch& patch) {
 
 std::optional<double> UsedBoundaries::pressure_jump(const Patch& disc, double area, CaseProblems& problems) {
   const CaseBoundary given = of(disc);
+  if (!is_automatic(given.pressure_jump) && !is_automatic(given.thrust))
+    problems.add("boundaries: thrust and pressure_jump of \"" + disc.name +
+                 "\" are both given; either determines the other (thrust = pressure_jump * area): give one");
   if (!is_automatic(given.pressure_jump)) return given.pressure_jump;
   if (!is_automatic(given.thrust)) return given.thrust / area;
   problems.add("the pressure jump of the actuator disc \"" + disc.name + "\" is unknown: give boundaries = { [\"" + disc.name +

@@ -67,7 +67,7 @@ ScriptValue make_tetrahedra_verb(const ScriptCall& call) {
   return std::make_shared<const TetrahedraValue>(make_tetrahedra(*envelope, options, call.session.context.part("tetrahedra", 0.0, 1.0), call.session.reuse()));
 }
 
-constexpr std::string_view k_prisms_usage = "prisms{ env, tets, improve_rounds = 30 }";
+constexpr std::string_view k_finish_usage = "finish_mesh{ env, tets, improve_rounds = 30 }";
 
 /// Rejects options of the layer, which belong to tetrahedra{}. The layer is subdivided before the tetrahedra are made, because it may have to be lower than the
 /// envelope.
@@ -79,8 +79,8 @@ void refuse_layer_options(TableReader& reader) {
                          " = ... }, which subdivides the layer before making tetrahedra");
 }
 
-ScriptValue make_prisms_verb(const ScriptCall& call) {
-  const ScriptTable table = table_argument(call, 0, k_prisms_usage);
+ScriptValue finish_mesh_verb(const ScriptCall& call) {
+  const ScriptTable table = table_argument(call, 0, k_finish_usage);
   TableReader reader(table, call.attempted());
   const auto envelope = entry<EnvelopeHandle>(reader, 1, "an envelope (from make_envelope or read_stages)");
   const auto tets = entry<TetrahedraHandle>(reader, 2, "tetrahedra (from tetrahedra{...} or read_stages)");
@@ -92,9 +92,15 @@ ScriptValue make_prisms_verb(const ScriptCall& call) {
   refuse_layer_options(reader);
   apply_overrides(call, schema);
   reader.finish();
-  auto mesh = std::make_shared<const MeshValue>(finish_mesh(*tets, options, call.session.context.part("prisms", 0.0, 1.0), call.session.reuse()));
+  auto mesh = std::make_shared<const MeshValue>(finish_mesh(*tets, options, call.session.context.part("finish_mesh", 0.0, 1.0), call.session.reuse()));
   if (call.session.on_mesh) call.session.on_mesh(*mesh);
   return mesh;
+}
+
+/// The name of finish_mesh{} in version 0.1.0, which promised options of the prisms.
+ScriptValue prisms_verb(const ScriptCall& call) {
+  call.session.context.warn(call.attempted() + ": prisms{} is now called finish_mesh{}; a later version will not have the former name");
+  return finish_mesh_verb(call);
 }
 
 constexpr std::string_view k_read_stages_usage = "read_stages \"case.sterna\"";
@@ -178,12 +184,13 @@ std::string help_of() {
   return options_help(Options(options));
 }
 
-constexpr std::array<ScriptVerb, 4> k_stage_verbs = {{
+constexpr std::array<ScriptVerb, 5> k_stage_verbs = {{
     {"make_envelope", k_envelope_usage, "Makes the envelope of the layer: the first step of volume_mesh.", make_envelope_verb, envelope_help, true, "envelope"},
     {"tetrahedra", k_tetrahedra_usage, "Makes the layer below an envelope, and tetrahedra from the envelope to the farfield: the second step of volume_mesh.",
      make_tetrahedra_verb, help_of<tetrahedra_options>, true, "tetrahedra"},
-    {"prisms", k_prisms_usage, "Joins layer and tetrahedra to a checked mesh: the last step of volume_mesh.", make_prisms_verb, help_of<finish_options>, true,
-     "mesh"},
+    {"finish_mesh", k_finish_usage, "Improves the tetrahedra, joins them with the layer to a mesh, and checks the mesh: the last step of volume_mesh.",
+     finish_mesh_verb, help_of<finish_options>, true, "mesh"},
+    {"prisms", "prisms{ env, tets }", "The former name of finish_mesh.", prisms_verb, nullptr, true, "mesh"},
     {"read_stages", k_read_stages_usage,
      "Reads a .sterna file and returns the content as fields surface, envelope, tetrahedra and mesh. Meshing can continue from each of them.", read_stages_verb,
      nullptr, true, "stages"},

@@ -32,6 +32,7 @@ constexpr March k_careful_march{.cfl = 5.0, .largest_cfl = 100.0, .linear_iterat
 constexpr March k_slow_march{.cfl = 1.0, .largest_cfl = 20.0, .linear_iterations = 20};
 constexpr int k_force_window = 200;            ///< iterations
 constexpr double k_force_change = 0.002;       ///< largest change of lift and drag within the window
+constexpr double k_along_x = 0.999;            ///< x of the direction of a tunnel's flow, below which coefficients have unusual axes
 constexpr double k_no_angle = 0.1 * k_degree;  ///< angle of attack: lift may be zero below it
 
 std::string list(const std::vector<std::string>& entries) {
@@ -165,7 +166,19 @@ class Configuration {
   double length() const { return reference_length(reference_, flow_); }
   Point origin() const { return moment_origin(reference_, flow_); }
 
+  /// Returns the direction of the free stream: that of a tunnel's first inflow, else the direction given by the angles.
+  Vec3 direction() const {
+    if (case_patches_.is_tunnel && !case_patches_.inflows.empty()) return inward_normal(case_patches_.facts[case_patches_.inflows.front()]);
+    const double a = common_.alpha, b = common_.beta;
+    return {std::cos(a) * std::cos(b), std::sin(b), std::sin(a) * std::cos(b)};
+  }
+
   void report() {
+    if (const Vec3 along = direction(); case_patches_.is_tunnel && !case_patches_.is_internal && along.x < k_along_x)
+      context_.warn(
+          fmt::format("SU2: the flow enters along ({:.3g}, {:.3g}, {:.3g}). SU2 measures lift along ({:.3g}, 0, {:.3g}) and pitching moments about y for "
+                      "this direction: rotate the model and the tunnel so that the flow is along x, or convert the coefficients",
+                      along.x, along.y, along.z, -std::sin(std::atan2(along.z, along.x)), std::cos(std::atan2(along.z, along.x))));
     if (case_patches_.is_internal)
       context_.info(fmt::format("SU2: {}, internal flow from {} to {}: the history has mass flow, pressures and the pressure drop between these markers",
                                 solver_, list(openings(case_patches_.inflows)), list(openings(case_patches_.outflows))));
@@ -193,11 +206,14 @@ class Configuration {
   std::string head() const { return "% SU2 configuration by sterna " STERNA_VERSION "\n% Flow: " + describe(flow_) + "\n"; }
 
   std::string physics() const {
+    const Vec3 along = direction();
+    const double alpha = case_patches_.is_tunnel ? clean_component(std::atan2(along.z, along.x), 1.0) : common_.alpha;
+    const double beta = case_patches_.is_tunnel ? clean_component(std::asin(std::clamp(along.y, -1.0, 1.0)), 1.0) : common_.beta;
     std::string text = title("Problem") + "SOLVER= " + solver_ + "\n";
     if (solver_ == "RANS") text += "KIND_TURB_MODEL= " + options_.turbulence + "\n";
     text += std::string("MATH_PROBLEM= DIRECT\nRESTART_SOL= ") + (options_.restart ? "YES" : "NO") + "\nSYSTEM_MEASUREMENTS= SI\n";
-    text += title("Free stream") + "MACH_NUMBER= " + case_number(flow_.mach) + "\nAOA= " + case_number(common_.alpha * k_degrees) +
-            "\nSIDESLIP_ANGLE= " + case_number(common_.beta * k_degrees) + "\n";
+    text += title("Free stream") + "MACH_NUMBER= " + case_number(flow_.mach) + "\nAOA= " + case_number(alpha * k_degrees) +
+            "\nSIDESLIP_ANGLE= " + case_number(beta * k_degrees) + "\n";
     const bool has_state = !is_automatic(flow_.pressure) && !is_automatic(flow_.temperature);
     if (is_viscous_ && !(case_patches_.is_tunnel && has_state)) {
       text += "INIT_OPTION= REYNOLDS\nFREESTREAM_TEMPERATURE= " + case_number(flow_.temperature) + "\n";

@@ -3,6 +3,7 @@
 #include <filesystem>
 
 #include "geom/base/error.h"
+#include "io/file/format_table.h"
 #include "io/output/atomic_file.h"
 #include "scripting/lua/script_check.h"
 #include "scripting/lua/verb_tools.h"
@@ -19,6 +20,11 @@ std::string problem_of_su2_mesh(const std::string& name) {
 
 void write_su2_file(const MeshValue& mesh, Su2Options options, const CaseRequest& request, const std::filesystem::path& file, const std::string& attempted,
                     const RunContext& context) {
+  if (io::is_known_format(file) || file.extension() == ".json")
+    throw Error({.code = ErrorCode::bad_argument,
+                 .attempted = attempted,
+                 .problem = "\"" + file.string() + "\" has the name of a mesh or of its manifest, which the configuration would replace",
+                 .hint = "give the configuration another name, e.g. " + file.stem().string() + ".cfg"});
   if (options.mesh.empty()) options.mesh = file.stem().string() + ".su2";
   const std::optional<HybridMesh> changed = with_kinds(mesh.mesh, request.kinds, attempted);
   const HybridMesh& seen = changed ? *changed : mesh.mesh;

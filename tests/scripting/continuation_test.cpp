@@ -48,9 +48,9 @@ TEST_P(Continuation, GivesTheBytesOfTheWholeRun) {
   run("envelope", wall + "make_envelope{ wall, " + layer + " }:write 'env.sterna'");
   std::filesystem::remove(folder_ / "room.stl");  // the stage file contains all that is needed
   run("tetrahedra", "tetrahedra{ read_stages('env.sterna').envelope }:write 'tets.sterna'");
-  run("prisms", "local s = read_stages 'tets.sterna'\nprisms{ s.envelope, s.tetrahedra }:write 'script.su2'");
-  run("finished", "local e = read_stages('all.sterna').envelope\nprisms{ e, tetrahedra{ e } }:write 'finished.su2'");
-  run("last", "local s = read_stages 'all.sterna'\nprisms{ s.envelope, s.tetrahedra }:write 'last.su2'");
+  run("prisms", "local s = read_stages 'tets.sterna'\nfinish_mesh{ s.envelope, s.tetrahedra }:write 'script.su2'");
+  run("finished", "local e = read_stages('all.sterna').envelope\nfinish_mesh{ e, tetrahedra{ e } }:write 'finished.su2'");
+  run("last", "local s = read_stages 'all.sterna'\nfinish_mesh{ s.envelope, s.tetrahedra }:write 'last.su2'");
   expect_success({"mesh", "env.sterna", "-o", "command.su2"});
   expect_success({"mesh", "tets.sterna", "-o", "late.su2"});
   const std::string whole = contents("whole.su2");
@@ -64,7 +64,7 @@ TEST_P(Continuation, AcceptsOptionsOfRemainingSteps) {
   run("whole", wall + "volume_mesh{ wall, " + layer + ", ends_growth = 1.25, size_growth = 1.5, improve_rounds = 3 }:write 'whole.su2'");
   run("envelope", wall + "make_envelope{ wall, " + layer + " }:write 'env.sterna'");
   run("script",
-      "local e = read_stages('env.sterna').envelope\nprisms{ e, tetrahedra{ e, ends_growth = 1.25, size_growth = 1.5 }, improve_rounds = 3 }:write "
+      "local e = read_stages('env.sterna').envelope\nfinish_mesh{ e, tetrahedra{ e, ends_growth = 1.25, size_growth = 1.5 }, improve_rounds = 3 }:write "
       "'script.su2'");
   expect_success({"mesh", "env.sterna", "--ends-growth", "1.25", "--size-growth", "1.5", "--improve-rounds", "3", "-o", "command.su2"});
   const std::string whole = contents("whole.su2");
@@ -89,8 +89,8 @@ TEST_P(ContinuationWithSources, FileHasTheSources) {
   std::ofstream(folder_ / "sizes.vtu") << k_sizes_vtu;
   run("whole", volume);
   std::filesystem::remove(folder_ / "sizes.vtu");
-  run("finished", "local e = read_stages('all.sterna').envelope\nprisms{ e, tetrahedra{ e } }:write 'finished.su2'");
-  run("without", "local e = read_stages('all.sterna').envelope\nprisms{ e, tetrahedra{ e, sources = {} } }:write 'without.su2'");
+  run("finished", "local e = read_stages('all.sterna').envelope\nfinish_mesh{ e, tetrahedra{ e } }:write 'finished.su2'");
+  run("without", "local e = read_stages('all.sterna').envelope\nfinish_mesh{ e, tetrahedra{ e, sources = {} } }:write 'without.su2'");
   const std::string whole = contents("whole.su2");
   EXPECT_GT(whole.size(), 10000u);
   EXPECT_TRUE(contents("finished.su2") == whole);

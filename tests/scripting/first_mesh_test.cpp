@@ -67,6 +67,13 @@ TEST_F(FirstMesh, CommandLineWritesCheckedMeshAndManifest) {
   EXPECT_EQ(sterna({"check", "box.su2", "--strict", "--for", "su2,openfoam", "--gate", "interface_volume:hard=9"}).status, k_exit_invalid);
   EXPECT_EQ(sterna({"check", "box.su2", "--for", "openfoam"}).output.substr(0, 25), "VALID; cell-centred: warn");
   EXPECT_EQ(sterna({"check", "box.su2", "--for", "su3"}).status, k_exit_usage);
+  const ProcessResult contradiction = sterna({"check", "box.su2", "--for", "openfoam", "--no-cell-centred", "--strict"});
+  EXPECT_EQ(contradiction.status, k_exit_usage) << contradiction.output;
+  EXPECT_NE(contradiction.errors.find("--for \"openfoam\" requests a verdict for a cell-centred solver"), std::string::npos) << contradiction.errors;
+  std::ofstream(folder / "contradiction.lua") << "read_mesh('box.su2'):check{ cell_centred = false, solvers = 'openfoam', strict = true }";
+  const ProcessResult script = sterna({"run", "contradiction.lua"});
+  EXPECT_EQ(script.status, k_exit_usage) << script.output;
+  EXPECT_NE(script.errors.find("solvers \"openfoam\" requests a verdict"), std::string::npos) << script.errors;
   for (const char* part : {"\"quality\"", "\"sub_volume_ratio\""}) EXPECT_NE(manifest.find(part), std::string::npos) << part;
   const ProcessResult info = sterna({"info", "box.su2"});
   EXPECT_EQ(info.status, k_exit_success) << info.errors;
@@ -127,7 +134,7 @@ TEST_F(FirstMesh, StepsAreContinuedToTheSameBytes) {
     std::ofstream(folder / (name + ".lua")) << text;
     const ProcessResult result = sterna({"run", name + ".lua"});
     EXPECT_EQ(result.status, k_exit_success) << result.errors;
-    return result.output;
+    return result.output + result.errors;
   };
   run("whole", wing + "volume_mesh{ wall, " + layer + ", " + fill + ", improve_rounds = 5, stages = 'all.sterna' }:write 'whole.su2'");
   run("envelope", wing + "make_envelope{ wall, " + layer + " }:write('env.sterna', 'env.vtu')");
@@ -138,14 +145,18 @@ TEST_F(FirstMesh, StepsAreContinuedToTheSameBytes) {
   EXPECT_NE(reported.find("Envelope: "), std::string::npos) << reported;
   EXPECT_NE(reported.find("880 triangles, closed, 4 patches"), std::string::npos) << reported;
   EXPECT_NE(reported.find("Tetrahedra: "), std::string::npos) << reported;
-  run("prisms", "local s = read_stages 'tets.sterna'\nassert(not s.mesh)\nprisms{ s.envelope, s.tetrahedra, improve_rounds = 5 }:write 'prisms.su2'");
+  run("finish", "local s = read_stages 'tets.sterna'\nassert(not s.mesh)\nfinish_mesh{ s.envelope, s.tetrahedra, improve_rounds = 5 }:write 'finish.su2'");
+  EXPECT_NE(run("prisms", "local s = read_stages 'tets.sterna'\nprisms{ s.envelope, s.tetrahedra, improve_rounds = 5 }:write 'prisms.su2'")
+                .find("prisms{} is now called finish_mesh{}"),
+            std::string::npos);
   run("memory", wing + "local env = make_envelope{ wall, " + layer +
-                    " }\nlocal tets = tetrahedra{ env, size = { size_growth = 1.8 }, prisms = { wall_perpendicularity = 0.2 } }\nprisms{ env, tets, "
+                    " }\nlocal tets = tetrahedra{ env, size = { size_growth = 1.8 }, prisms = { wall_perpendicularity = 0.2 } }\nfinish_mesh{ env, tets, "
                     "improve_rounds = 5 }:write 'memory.su2'");
-  run("last", "local s = read_stages 'all.sterna'\nassert(s.mesh.prisms > 0)\ns.mesh:write 'last.su2'\nprisms{ s.envelope, s.tetrahedra }:write 'again.su2'");
+  run("last",
+      "local s = read_stages 'all.sterna'\nassert(s.mesh.prisms > 0)\ns.mesh:write 'last.su2'\nfinish_mesh{ s.envelope, s.tetrahedra }:write 'again.su2'");
   const std::string whole = contents(folder / "whole.su2");
   EXPECT_GT(whole.size(), 100000u);
-  for (const char* name : {"prisms.su2", "memory.su2", "last.su2", "again.su2"}) EXPECT_TRUE(contents(folder / name) == whole) << name;
+  for (const char* name : {"finish.su2", "prisms.su2", "memory.su2", "last.su2", "again.su2"}) EXPECT_TRUE(contents(folder / name) == whole) << name;
 
   const ProcessResult continued =
       sterna({"mesh", "env.sterna", "--wall-perpendicularity", "0.2", "--size-growth", "1.8", "--improve-rounds", "5", "-o", "command.su2"});
@@ -182,10 +193,11 @@ TEST_F(FirstMesh, StepsThatDoNotFitAreRefused) {
   };
   expect_reported(env + "tetrahedra{ wall }", "case.lua:3: tetrahedra: entry 1: expected an envelope (from make_envelope or read_stages), not a surface");
   expect_reported(env + "tetrahedra{ env, layers = 3 }", "unknown key \"layers\"");
-  expect_reported(env + "prisms{ env }", "entry 2: expected tetrahedra (from tetrahedra{...} or read_stages), not nothing");
-  expect_reported(env + "prisms{ env, tetrahedra{ env }, wall_perpendicularity = 0.3 }", "belongs to tetrahedra{ env, wall_perpendicularity = ... }");
-  expect_reported(env + "prisms{ make_envelope{ wall, layers = 4, first_height = 1e-3 }, tetrahedra{ read_stages('env.sterna').envelope } }", "env.sterna");
-  expect_reported(env + "env:write 'env.sterna'\nprisms{ env, tetrahedra{ read_stages('env.sterna').envelope } }",
+  expect_reported(env + "finish_mesh{ env }", "entry 2: expected tetrahedra (from tetrahedra{...} or read_stages), not nothing");
+  expect_reported(env + "finish_mesh{ env, tetrahedra{ env }, wall_perpendicularity = 0.3 }", "belongs to tetrahedra{ env, wall_perpendicularity = ... }");
+  expect_reported(env + "finish_mesh{ make_envelope{ wall, layers = 4, first_height = 1e-3 }, tetrahedra{ read_stages('env.sterna').envelope } }",
+                  "env.sterna");
+  expect_reported(env + "env:write 'env.sterna'\nfinish_mesh{ env, tetrahedra{ read_stages('env.sterna').envelope } }",
                   "these tetrahedra were made around another envelope");
   expect_reported(env + "tetrahedra{ env }:write 'tets.vtu'", "written to .sterna files only");
   expect_reported(env + "print(env.hight)", "there is no \"hight\"");

@@ -104,7 +104,7 @@ TEST_F(FlowScripts, FirstHeightsByFunctionOfLocation) {
   // the command line have priority.
   run(height + "local w, ff = read_surface 'ball.off', sphere{ radius = 8 } make_envelope{ w, " + more + "h }:write(" + out("e.sterna") +
       ") local e = read_stages(" + out("e.sterna") + ").envelope local t = tetrahedra{ e } t:write(" + out("t.sterna") + ") local s = read_stages(" +
-      out("t.sterna") + ") prisms{ s.envelope, s.tetrahedra }:write(" + out("steps.su2") + ")");
+      out("t.sterna") + ") finish_mesh{ s.envelope, s.tetrahedra }:write(" + out("steps.su2") + ")");
   EXPECT_EQ(text_of("steps.su2"), text_of("by_place.su2"));
   run("local w = read_surface 'ball.off' volume_mesh{ w, " + more + "0.01 }:write(" + out("number.su2") + ") volume_mesh{ w, " + more +
       "function() return 0.01 end }:write(" + out("constant.su2") + ")");
@@ -136,7 +136,7 @@ TEST_F(FlowScripts, FamilyMembersHaveAWake) {
   run(mesh + "refinement = 1 }:write(" + out("whole.su2") + ")");
   run("make_envelope{ read_surface 'ball.off', layers = 4, first_height = 0.01, farfield = sphere{ radius = 8 }, refinement = 1 }:write(" + out("e.sterna") +
       ")");
-  run("local e = read_stages(" + out("e.sterna") + ").envelope prisms{ e, tetrahedra{ e } }:write(" + out("steps.su2") + ")");
+  run("local e = read_stages(" + out("e.sterna") + ").envelope finish_mesh{ e, tetrahedra{ e } }:write(" + out("steps.su2") + ")");
   EXPECT_EQ(text_of("steps.su2"), text_of("whole.su2"));
 }
 

@@ -136,8 +136,8 @@ TEST_F(SurfaceMeshVerb, TheCommandLineTakesPatchesAndSources) {
 TEST_F(SurfaceMeshVerb, AFileOfStepsKeepsTheOptions) {
   run("local w = surface_mesh{ box{ {0,0,0}, {1,1,1}, name='block' }, max_edge=0.5, patches={ ['b*']={ max_edge=0.4, curvature_angle=20*deg } } } "
       "local e = make_envelope{ w, layers=3, first_height=1e-3, farfield=sphere{ radius=10 } } e:write(" +
-      out("steps.sterna") + ") local t = tetrahedra{ e } prisms{ e, t }:write(" + out("a.su2") + ")");
-  run("local s = read_stages(" + out("steps.sterna") + ") prisms{ s.envelope, tetrahedra{ s.envelope } }:write(" + out("b.su2") + ")");
+      out("steps.sterna") + ") local t = tetrahedra{ e } finish_mesh{ e, t }:write(" + out("a.su2") + ")");
+  run("local s = read_stages(" + out("steps.sterna") + ") finish_mesh{ s.envelope, tetrahedra{ s.envelope } }:write(" + out("b.su2") + ")");
   EXPECT_EQ(text_of("a.su2"), text_of("b.su2"));
   const auto after_name = [](std::string text) { return text.substr(text.find("\"seed\"")); };
   EXPECT_EQ(after_name(text_of("a.su2.json")), after_name(text_of("b.su2.json")));

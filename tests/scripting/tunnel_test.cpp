@@ -126,7 +126,7 @@ TEST_F(TunnelScripts, PeriodicSidesOfACascade) {
   const std::string manifest = text_of("row.sterna.json");
   EXPECT_THAT(manifest, AllOf(HasSubstr("\"periodic_sides\""), HasSubstr("\"worst_distance\""), HasSubstr("\"periodic\"")));
   EXPECT_THAT(run("read_mesh(" + out("row.sterna") + "):check{ details = true }"), HasSubstr("periodic: tunnel_left and tunnel_right"));
-  EXPECT_THAT(run("local s = read_stages(" + out("steps.sterna") + ") prisms{ s.envelope, s.tetrahedra }:check{ details = true }"),
+  EXPECT_THAT(run("local s = read_stages(" + out("steps.sterna") + ") finish_mesh{ s.envelope, s.tetrahedra }:check{ details = true }"),
               HasSubstr("periodic: tunnel_left and tunnel_right"));
   run("read_mesh(" + out("row.sterna") + "):su2_config{ " + out("row.cfg") +
       ", mesh = 'row.su2', flow{ mach = 0.3, altitude = 0, length = 0.8 }, reference_area = 1 }");
@@ -151,7 +151,7 @@ TEST_F(TunnelScripts, AWingThroughPeriodicSides) {
             "VALID");
   EXPECT_THAT(log_, HasSubstr("periodic sides tunnel_left and tunnel_right: "));
   EXPECT_THAT(text_of("blade.su2.json"), AllOf(HasSubstr("\"periodic_sides\""), HasSubstr("tunnel_left,tunnel_right")));
-  EXPECT_THAT(run("local s = read_stages(" + out("blade.sterna") + ") prisms{ s.envelope, s.tetrahedra }:check{ details = true }"),
+  EXPECT_THAT(run("local s = read_stages(" + out("blade.sterna") + ") finish_mesh{ s.envelope, s.tetrahedra }:check{ details = true }"),
               HasSubstr("periodic: tunnel_left and tunnel_right"));
   EXPECT_THAT(error(surface + "{ 'tunnel_left', 'tunnel_rigth' } }"),
               AllOf(HasSubstr("the model has no face \"tunnel_rigth\""), HasSubstr("did you mean \"tunnel_right\"?")));

@@ -475,12 +475,12 @@ def attitude_of(case):
 
 
 def continued_script(case, names):
-    """Lua that makes the same mesh behind a step that is kept in stopped.sterna; `names`: of the options of `tetrahedra` and `prisms`."""
+    """Lua that makes the same mesh behind a step that is kept in stopped.sterna; `names`: of the options of `tetrahedra` and `finish_mesh`."""
     of = {verb: {name: value for name, value in case["volume"].items() if name in names[verb]} for verb in names}
     lines = ['local kept = read_stages "stopped.sterna"', "local tets = kept.tetrahedra"]
     if case["continued"] == "envelope":
         lines[1] = f"local tets = tetrahedra{table_of('kept.envelope', of['tetrahedra'])}"
-    return "\n".join(lines + [f"prisms{table_of('kept.envelope, tets', of['prisms'])}:write \"continued.su2\""]) + "\n"
+    return "\n".join(lines + [f"finish_mesh{table_of('kept.envelope, tets', of['finish_mesh'])}:write \"continued.su2\""]) + "\n"
 
 
 def model_script(case):

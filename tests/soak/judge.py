@@ -334,7 +334,7 @@ class Judge:
         """The same bytes when the mesh is made again behind a step that its .sterna file keeps."""
         if not case.get("continued"):
             return ""
-        self.names = self.names or {verb: cases.names_of(self.sterna, verb) for verb in ("tetrahedra", "prisms")}
+        self.names = self.names or {verb: cases.names_of(self.sterna, verb) for verb in ("tetrahedra", "finish_mesh")}
         (folder / "continued.lua").write_text(cases.continued_script(case, self.names))
         done = Run([self.sterna, "run", "continued.lua", "--threads", "1"], folder, self.limit)
         if done.trouble() or done.status:

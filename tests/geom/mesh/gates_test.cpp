@@ -542,6 +542,35 @@ TEST(CheckReport, JsonHasEveryMeasureWithItsLimits) {
   EXPECT_NE(json["quality_verdict"], "not checked");
 }
 
+TEST(Gates, MeshThatDoesNotConformNeverPasses) {
+  HybridMesh mesh = explicit_cells(plate_block(1));
+  const CheckReport before = checked(mesh);
+  ASSERT_TRUE(before.is_valid());
+  ASSERT_NE(before.quality_state(), GateState::not_checked);
+  mesh.points.push_back({0.5, 0.5, 0.5});  // an unused node
+  const CheckReport report = checked(mesh);
+  EXPECT_EQ(report.count(Violation::unused_node), 1);
+  EXPECT_EQ(report.gate(Measure::orthogonality).state, GateState::not_checked);
+  EXPECT_EQ(report.quality_state(), GateState::not_checked);
+  EXPECT_EQ(verdict_line(report), "INVALID; cell-centred: not checked; node-centred: not checked");
+  const nlohmann::json json = nlohmann::json::parse(to_json(report));
+  EXPECT_EQ(json["quality_verdict"], "not checked");
+  for (const auto& entry : json["verdicts"]) {
+    EXPECT_EQ(entry["state"], "not checked");
+    EXPECT_TRUE(entry["separate_places"].is_null());
+    EXPECT_TRUE(entry["beyond"].is_null());
+  }
+}
+
+TEST(Gates, FlippedCellsOfTheFileAreReported) {
+  HybridMesh mesh = explicit_cells(plate_block(1));
+  EXPECT_EQ(nlohmann::json::parse(to_json(checked(mesh)))["flipped_cells"], 0);
+  mesh.n_flipped_cells = 3;
+  const CheckReport report = checked(mesh);
+  EXPECT_EQ(nlohmann::json::parse(to_json(report))["flipped_cells"], 3);
+  EXPECT_NE(to_text(report).find("inverted cells of the file, flipped by the reader: 3"), std::string::npos);
+}
+
 /// Layers that end on another wall (a strut on a tunnel wall): the tops of their last prisms touch that wall and must still count as tops, also in a file
 /// without columns. (They used to be treated as first cells of multi-normal fans and left out.)
 TEST(Gates, TopsBesideAnotherWallCountInFilesToo) {

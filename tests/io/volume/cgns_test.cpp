@@ -200,7 +200,8 @@ TEST(CgnsRead, ConditionsListElementsOrNodesInManyWays) {
   std::vector<std::string> warnings;
   EXPECT_EQ(tetrahedron_with(condition("BCInflow", {points("ElementList", {1})}), &warnings).patches.raw(), inflow);  // numbers that exclude the cells
   EXPECT_EQ(tetrahedron_with(condition("BCInflow", {points("ElementList", {9})}), &warnings).patches.raw(), (std::vector<Patch>{{"faces", PatchKind::wall}}));
-  EXPECT_THAT(warnings, testing::ElementsAre(testing::HasSubstr("lists volume cells"), testing::HasSubstr("lists no boundary face")));
+  EXPECT_THAT(warnings,
+              testing::IsSupersetOf({testing::HasSubstr("lists volume cells"), testing::HasSubstr("lists no boundary face")}));  // the cell is flipped, too
   test::expect_error(ErrorCode::file_malformed, "/Base/Zone/ZoneBC/bc/PointList: found the node 5, expected 1 to 4",
                      [&] { tetrahedron_with(condition("BCInflow", {points("PointList", {5})})); });
 }

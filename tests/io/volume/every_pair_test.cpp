@@ -229,6 +229,14 @@ double least_volume_of_a_solver(const HybridMesh& mesh) {
   return least;
 }
 
+TEST(EveryVolumeFormat, OwnFilesHaveNoInvertedCells) {
+  for (const HybridMesh& mesh : {test::mixed_mesh(), test::hexahedron_with_roof()})
+    for (const Variant& variant : variants()) {
+      SCOPED_TRACE(variant.name());
+      EXPECT_EQ(through(mesh, variant, test::scratch()).n_flipped_cells, 0);
+    }
+}
+
 /// A reader of the file that computes volumes in double precision must get the proven values.
 TEST(EveryVolumeFormat, VolumesInDoublePrecisionArePositiveAfterReading) {
   // A flat layer away from the origin: its first cells are 1e-6 high at coordinates of 100, where single precision steps by 8e-6.

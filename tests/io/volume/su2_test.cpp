@@ -190,7 +190,8 @@ TEST(Su2Read, WrongWindingsAreFlippedAndTold) {
   EXPECT_DOUBLE_EQ(test::volume_of(mesh), 2.0 / 3.0);
   EXPECT_DOUBLE_EQ(test::enclosed_volume(mesh), 2.0 / 3.0);
   EXPECT_THAT(log, testing::ElementsAre(testing::HasSubstr("flipped: 1 of kind tetrahedron"), testing::HasSubstr("flipped: 1 of kind prism"),
-                                        testing::HasSubstr("turned outwards: 2")));
+                                        testing::HasSubstr("turned outwards: 2"), testing::HasSubstr("mesh.su2: 2 of 2 cells in the file are inverted")));
+  EXPECT_EQ(mesh.n_flipped_cells, 2);
 }
 
 TEST(Su2Read, EveryKindIsFlipped) {
@@ -204,6 +205,32 @@ TEST(Su2Read, EveryKindIsFlipped) {
     EXPECT_NEAR(test::volume_of(back), volume, 1e-13 * volume);
     EXPECT_NEAR(test::enclosed_volume(back), volume, 1e-13 * volume);
   }
+}
+
+/// Two prisms on each other and a tetrahedron, with the nodes of the cells of each kind in this order.
+std::vector<std::string> warnings_of_windings(const std::string& first_prism, const std::string& second_prism, const std::string& tetrahedron) {
+  std::vector<std::string> warnings;
+  const RunContext context({.threads = 1, .log = [&](LogLevel level, std::string_view line) {
+                              if (level == LogLevel::warning) warnings.emplace_back(line);
+                            }});
+  const std::string text = "NDIME= 3\nNELEM= 3\n13 " + first_prism + "\n13 " + second_prism + "\n10 " + tetrahedron +
+                           "\nNPOIN= 10\n0 0 0\n1 0 0\n0 1 0\n0 0 1\n1 0 1\n0 1 1\n0 0 2\n1 0 2\n0 1 2\n0 0 3\nNMARK= 0\n";
+  const HybridMesh mesh = read_volume_file(test::write_text("windings.su2", text), context);
+  EXPECT_DOUBLE_EQ(test::volume_of(mesh), 1.0 + 1.0 / 6.0);
+  std::erase_if(warnings, [](const std::string& line) { return line.find("no boundary faces") != std::string::npos; });
+  EXPECT_EQ(mesh.n_flipped_cells > 0, !warnings.empty());
+  return warnings;
+}
+
+TEST(Su2Read, InvertedCellsWarnButConventionsOfPrismsDoNot) {
+  const std::string first = "0 2 1 3 5 4", second = "3 5 4 6 8 7", tet = "6 7 8 9";
+  const std::string other_first = "0 1 2 3 4 5", other_second = "3 4 5 6 7 8", inverted_tet = "6 8 7 9";
+  EXPECT_THAT(warnings_of_windings(first, second, tet), testing::IsEmpty());
+  EXPECT_THAT(warnings_of_windings(other_first, other_second, tet), testing::IsEmpty());
+  EXPECT_THAT(warnings_of_windings(other_first, second, tet),
+              testing::ElementsAre(testing::AllOf(testing::HasSubstr("windings.su2: 1 of 3 cells in the file are inverted"), testing::HasSubstr("convert"))));
+  EXPECT_THAT(warnings_of_windings(first, second, inverted_tet), testing::ElementsAre(testing::HasSubstr("1 of 3 cells")));
+  EXPECT_THAT(warnings_of_windings(other_first, other_second, inverted_tet), testing::ElementsAre(testing::HasSubstr("3 of 3 cells")));
 }
 
 TEST(Su2Read, WarpedValidPrismsStay) {

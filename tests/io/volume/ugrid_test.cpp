@@ -112,6 +112,23 @@ TEST(UgridWrite, AnIndependentReaderFindsTheSame) {
   }
 }
 
+TEST(UgridWrite, RoundingBeyondOnePercentOfAnEdgeWarns) {
+  HybridMesh mesh = test::stepped_sphere_shell(4, {.n_layers = 6, .layer_height = 2e-3, .ratio = 1.2});
+  const auto folder = test::scratch();
+  EXPECT_EQ(test::warnings_of_writing(mesh, folder / "near.lb4.ugrid").size(), 1u);  // nodes move by 6e-8, the first height is about 2e-4
+  EXPECT_EQ(rounding_of_volume_file(mesh, folder / "near.lb4.ugrid", RunContext()), "");
+  for (Point& p : mesh.points) p += Vec3{100.0, 100.0, 100.0};  // single precision steps by 8e-6 there
+  const std::string rounding = rounding_of_volume_file(mesh, folder / "far.b4.ugrid", RunContext({.threads = 1}));
+  EXPECT_NE(rounding.find(" % of the length of their edge, "), std::string::npos) << rounding;
+  EXPECT_EQ(rounding_of_volume_file(mesh, folder / "far.b4.ugrid", RunContext({.threads = 7})), rounding);
+  for (const char* const exact : {"far.lb8.ugrid", "far.ugrid", "far.su2", "far.foam"})
+    EXPECT_EQ(rounding_of_volume_file(mesh, folder / exact, RunContext()), "") << exact;
+  const std::vector<std::string> warnings = test::warnings_of_writing(mesh, folder / "far.b4.ugrid");
+  ASSERT_EQ(warnings.size(), 2u);
+  EXPECT_NE(warnings[1].find(rounding), std::string::npos) << warnings[1];
+  EXPECT_EQ(rounding_of_volume_file(read(folder / "far.b4.ugrid"), folder / "again.b4.ugrid", RunContext()), "");  // already rounded
+}
+
 TEST(UgridWrite, RefusesWhatItCannotHold) {
   HybridMesh mesh = test::mixed_mesh();
   test::expect_error(ErrorCode::unsupported_format, "Fortran records", [&] { write(mesh, test::scratch() / "mesh.r8.ugrid"); });

@@ -93,7 +93,8 @@ TEST(VtkHdfRead, PartitionsAreJoined) {
   ASSERT_EQ(mesh.tetrahedra.size(), 2u);
   EXPECT_DOUBLE_EQ(test::volume_of(mesh), 1.0 / 3.0);
   EXPECT_THAT(log, testing::ElementsAre(testing::HasSubstr("left out: 1"), testing::HasSubstr("flipped: 1 of kind tetrahedron"),
-                                        testing::HasSubstr("no boundary faces"), testing::HasSubstr("1 of 9 points belong to no cell")));
+                                        testing::HasSubstr("two.hdf: 1 of 2 cells in the file are inverted"), testing::HasSubstr("no boundary faces"),
+                                        testing::HasSubstr("1 of 9 points belong to no cell")));
 }
 
 TEST(VtkHdfRead, MistakesAreTold) {

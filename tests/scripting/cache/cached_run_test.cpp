@@ -129,7 +129,7 @@ TEST_F(CachedRun, ManualStepsAndStoredStagesGiveSameBytes) {
   const std::string text =
       k_model +
       "local w = surface_mesh{ m, max_edge=0.8 } local ff = sphere{ radius=6, edge=3 } "
-      "local e = make_envelope{ w, layers=2, first_height=0.01, farfield=ff } local t = tetrahedra{ e, farfield=ff } local mesh = prisms{ e, t } "
+      "local e = make_envelope{ w, layers=2, first_height=0.01, farfield=ff } local t = tetrahedra{ e, farfield=ff } local mesh = finish_mesh{ e, t } "
       "e:write 'OUT/e.sterna' t:write 'OUT/t.sterna' mesh:write 'OUT/m.sterna' "
       "volume_mesh{ w, layers=2, first_height=0.01, farfield=ff, stages='OUT/s.sterna' }:write 'OUT/v.sterna'";
   const Files without = run(text, false);

@@ -57,7 +57,7 @@ if not pre.ok then error(pre.findings[1].text) end
 print(#pre.findings, pre.coverage)
 local env = make_envelope{ wall, first_height = 1e-3 }
 local tets = tetrahedra{ env, farfield = sphere{ radius = 50 } }
-local mesh = prisms{ env, tets }
+local mesh = finish_mesh{ env, tets }
 mesh:check(); mesh:write("a.su2", "a.cgns"); print(mesh.cells, mesh.coverage)
 local m = volume_mesh{ wall, first_height = 1e-5, sources = { box{ {0,0,0}, {1,1,1}, size = 0.1 } } }
 read_mesh "a.su2"; half(plane); union{ plane, again }; env:write "env.sterna"
@@ -282,7 +282,7 @@ TEST_F(CheckScript, ManualStepsRefusePartsInOwnFrames) {
 TEST_F(CheckScript, OrderedStepsGiveBytesOfOneVerb) {
   const std::string wall = "local wall = surface_mesh{ box{ {0,0,0}, {1,1,1} }, max_edge = 0.3 }\n";
   run(wall + "local env = make_envelope{ wall, layers = 4, first_height = 0.01, max_growth = 1.3 } env:write(" + out("one.sterna") +
-      ") prisms{ env, tetrahedra{ env, farfield = sphere{ radius = 5 } } }:write(" + out("one.su2") + ")");
+      ") finish_mesh{ env, tetrahedra{ env, farfield = sphere{ radius = 5 } } }:write(" + out("one.su2") + ")");
   const std::string printed = run(wall +
                                   "local class = envelope.classify{ wall } print(class)\n"
                                   "local env = envelope.initial{ wall, class, layers = 4, first_height = 0.01, max_growth = 1.3 } print(env, env.step)\n"
@@ -293,7 +293,7 @@ TEST_F(CheckScript, OrderedStepsGiveBytesOfOneVerb) {
                                   "env = envelope.unwarp{ env }; env = envelope.retract{ env }; env = envelope.optimise{ env } print(env)\n"
                                   "env:write(" +
                                   out("steps.sterna") + ") env:write(" + out("env.vtu") +
-                                  ") prisms{ env, tetrahedra{ env, farfield = sphere{ radius = 5 } } }:write(" + out("steps.su2") + ")");
+                                  ") finish_mesh{ env, tetrahedra{ env, farfield = sphere{ radius = 5 } } }:write(" + out("steps.su2") + ")");
   EXPECT_THAT(printed,
               testing::AllOf(HasSubstr("Classification: "), HasSubstr("Envelope, initial: "), HasSubstr("\tinitial\n"), HasSubstr("untangled\nEnvelope: ")));
   EXPECT_EQ(text_of("one.su2"), text_of("steps.su2"));
@@ -330,7 +330,7 @@ TEST_F(CheckScript, FieldsAreThoseThatAreDocumented) {
   const std::string setup =
       "local model = box{ {0,0,0}, {1,1,1} } local surface = surface_mesh{ model, max_edge = 0.5 } local envelope = make_envelope{ surface, layers = 2, "
       "first_height = 0.02 }\n"
-      "local tetrahedra = tetrahedra{ envelope, farfield = sphere{ radius = 5 } } local mesh = prisms{ envelope, tetrahedra } local airfoil = airfoil "
+      "local tetrahedra = tetrahedra{ envelope, farfield = sphere{ radius = 5 } } local mesh = finish_mesh{ envelope, tetrahedra } local airfoil = airfoil "
       "'naca0012'\n"
       "local component = wing{ sections = { { y = 0, chord = 1, airfoil = 'naca0012' }, { y = 2 } } } local _, error = pcall(sphere, { radius = -1 })\n"
       "local all = { model = model, surface = surface, envelope = envelope, tetrahedra = tetrahedra, mesh = mesh, airfoil = airfoil, component = component, "

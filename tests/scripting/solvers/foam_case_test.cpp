@@ -336,7 +336,12 @@ TEST_F(FoamCases, AFolderIsWholeAndHoldsEverything) {
   // Without results it is replaced; what is no case is not.
   EXPECT_EQ(error(with_mesh("m:foam_case{ " + at("case") + ", flow{ reynolds = 100, length = 2 } }")), "no error");
   std::filesystem::create_directories(folder_ / "photos" / "holiday");
-  EXPECT_THAT(error(with_mesh("m:foam_case{ " + at("photos") + ", flow{ reynolds = 100, length = 2 } }")), HasSubstr("something else"));
+  EXPECT_THAT(error(with_mesh("m:foam_case{ " + at("photos") + ", flow{ reynolds = 100, length = 2 } }")), HasSubstr("holds \"holiday\""));
+  std::ofstream(folder_ / "case" / "notes.txt") << "of the user";
+  EXPECT_THAT(error(with_mesh("m:foam_case{ " + at("case") + ", flow{ reynolds = 100, length = 2 } }")), HasSubstr("holds \"notes.txt\""));
+  std::filesystem::create_directories(folder_ / "mine" / "system");
+  EXPECT_THAT(error(with_mesh("m:foam_case{ " + at("mine") + ", flow{ reynolds = 100, length = 2 } }")), HasSubstr("a case that foam_case did not write"));
+  EXPECT_TRUE(std::filesystem::exists(folder_ / "mine" / "system"));
 }
 
 TEST_F(FoamCases, MeshesAloneHaveTheZonesOfSources) {
@@ -397,13 +402,65 @@ TEST(FoamConditions, DiscsBecomeCyclicWithAJump) {
   EXPECT_THAT(file_of(made, "0/U"), HasSubstr("prop.back\n    {\n        type cyclic;"));
 }
 
+TEST(FoamConditions, TemperaturesOfConditionsAreWithinTheLimits) {
+  const HybridMesh mesh =
+      test::box_of_patches({{"inlet", PatchKind::inflow}, {"outlet", PatchKind::outflow}, {"body", PatchKind::wall}, {"side", PatchKind::slip}});
+  const volmesh::FlowState flow = volmesh::flow_state({.length = 1.0, .mach = 0.5, .altitude = 0.0});
+  const FoamCase hot = foam_case(mesh, {.model = "laminar"}, {}, flow, {}, {{"inlet", {.total_pressure = 1.5e5, .total_temperature = 2000.0}}}, RunContext());
+  EXPECT_THAT(file_of(hot, "system/fvOptions"), HasSubstr("max 6000;"));
+  const FoamCase cold = foam_case(mesh, {.model = "laminar"}, {.wall_temperature = 100.0}, flow, {}, {}, RunContext());
+  EXPECT_THAT(file_of(cold, "system/fvOptions"), HasSubstr("min 30;"));
+}
+
+TEST(FoamConditions, DiscsHeatGases) {
+  const HybridMesh mesh =
+      test::box_of_patches({{"prop", PatchKind::interface}, {"prop.back", PatchKind::interface}, {"body", PatchKind::wall}, {"far", PatchKind::farfield}});
+  const volmesh::FlowState flow = volmesh::flow_state({.length = 1.0, .mach = 0.5, .altitude = 0.0});
+  const FoamCase made = foam_case(mesh, {}, {}, flow, {.area = 1.0}, {{"prop", {.thrust = 100.0, .temperature_jump = 50.0}}}, RunContext());
+  EXPECT_THAT(file_of(made, "0/T"), AllOf(HasSubstr("jump uniform 50;"), HasSubstr("jump uniform -50;")));
+  test::expect_error(ErrorCode::bad_argument, "thrust and pressure_jump of \"prop\" are both given", [&] {
+    (void)foam_case(mesh, {}, {}, flow, {.area = 1.0}, {{"prop", {.thrust = 100.0, .pressure_jump = 50.0}}}, RunContext());
+  });
+}
+
+TEST(FoamConditions, FlowHasAWayInAndOut) {
+  const volmesh::FlowState flow = volmesh::flow_state({.length = 1.0, .mach = 0.2, .altitude = 0.0});
+  const auto expect = [&](const std::vector<std::pair<std::string, PatchKind>>& kinds, const std::string& problem) {
+    test::expect_error(ErrorCode::bad_argument, problem, [&] { (void)foam_case(test::box_of_patches(kinds), {}, {}, flow, {.area = 1.0}, {}, RunContext()); });
+  };
+  expect({{"body", PatchKind::wall}, {"side", PatchKind::slip}}, "nothing drives the flow");
+  expect({{"inlet", PatchKind::inflow}, {"body", PatchKind::wall}}, "but no outflow or farfield");
+  expect({{"outlet", PatchKind::outflow}, {"body", PatchKind::wall}}, "but no inflow or farfield");
+  expect(
+      {{"body", PatchKind::wall}, {"outlet", PatchKind::outflow}, {"inlet", PatchKind::inflow}, {"inlet_2", PatchKind::inflow}, {"around", PatchKind::inflow}},
+      "the inflow \"around\" has no direction");
+  expect({{"body", PatchKind::wall}, {"far", PatchKind::farfield}, {"plane", PatchKind::symmetry}}, "is of kind symmetry, but not plane");
+}
+
+TEST(FoamConditions, LiftPointsUpwardsInTunnelsOfAnyDirection) {
+  const volmesh::FlowState flow = volmesh::flow_state({.length = 1.0, .mach = 0.2, .altitude = 0.0});
+  const auto settings = [&](const std::vector<std::pair<std::string, PatchKind>>& kinds) {
+    return file_of(foam_case(test::box_of_patches(kinds), {}, {.monitor = "body"}, flow, {.area = 1.0}, {}, RunContext()), "system/controlDict");
+  };
+  const std::pair<std::string, PatchKind> inlet{"inlet", PatchKind::inflow}, outlet{"outlet", PatchKind::outflow}, body{"body", PatchKind::wall},
+      side{"side", PatchKind::slip};
+  EXPECT_THAT(settings({outlet, inlet, body, side}), AllOf(HasSubstr("dragDir (-1 0 0)"), HasSubstr("liftDir (0 0 1)"), HasSubstr("pitchAxis (0 -1 0)")));
+  EXPECT_THAT(settings({body, side, inlet, outlet}), AllOf(HasSubstr("dragDir (0 1 0)"), HasSubstr("liftDir (0 0 1)"), HasSubstr("pitchAxis (-1 0 0)")));
+}
+
 TEST(FoamConditions, HalfModelsCountHalfTheArea) {
   const HybridMesh mesh = test::box_of_patches({{"wing", PatchKind::wall}, {"plane", PatchKind::symmetry}, {"far", PatchKind::farfield}});
   const volmesh::FlowState flow = volmesh::flow_state({.length = 1.0, .mach = 0.2, .altitude = 0.0});
   const FoamCase made = foam_case(mesh, {}, {}, flow, {.area = 30.0}, {}, RunContext());
   EXPECT_THAT(file_of(made, "system/controlDict"), HasSubstr("Aref 15;"));
   EXPECT_THAT(file_of(made, "0/U"), HasSubstr("type symmetryPlane"));
-  EXPECT_THAT(file_of(made, "constant/turbulenceProperties"), HasSubstr("laminar"));  // no layers: no viscosity
+  EXPECT_THAT(file_of(made, "constant/turbulenceProperties"), HasSubstr("laminar"));  // no layers: inviscid
+  EXPECT_THAT(file_of(made, "constant/transportProperties"),
+              HasSubstr("nu 6.8058"));  // Reynolds number 1e8; with 0 cells between slip walls have no coefficient
+  EXPECT_THAT(file_of(made, "system/fvSolution"), HasSubstr("consistent $consistentPressure;"));
+  EXPECT_THAT(file_of(made, "system/stage.start"), HasSubstr("consistentPressure yes;"));  // SIMPLE diverges from uniform flow, SIMPLEC in second order
+  EXPECT_THAT(file_of(made, "system/stage.final"), AllOf(HasSubstr("consistentPressure no;"), HasSubstr("relaxationOfP 0.3;")));
+  EXPECT_THAT(file_of(made, "system/fvSchemes"), HasSubstr("grad(p) Gauss linear"));  // least squares diverged over sharp trailing edges
 }
 
 }  // namespace

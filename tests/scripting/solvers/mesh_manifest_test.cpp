@@ -120,6 +120,11 @@ TEST_F(MeshManifest, MissingOrStaleManifestMakesKindsUnknown) {
     EXPECT_EQ(given.status, k_exit_success) << given.errors;
     EXPECT_THAT(line_of("a.cfg", "MARKER_INLET"), HasSubstr("in_let"));
     std::filesystem::remove(folder_ / "a.cfg");
+    for (const char* name : {"duct.su2", "duct.su2.json", "other.cgns"})
+      EXPECT_THAT(sterna({"su2-config", "duct.su2", "-o", name, "--kind", "in*=inflow", "--kind", "outlet=outflow", "--kind", "*=wall", "--flow",
+                          "mach=0.3 altitude=0 length=1", "--reference-area", "1"})
+                      .errors,
+                  HasSubstr("has the name of a mesh or of its manifest"));
   }
   EXPECT_THAT(error("read_mesh(" + out("duct.su2") + "):su2_config{ " + out("b.cfg") + ", mach = 0.3, altitude = 0, length = 1, reference_area = 1 }"),
               HasSubstr("kinds = {"));
