@@ -220,8 +220,8 @@ CasePatches find_case_patches(const HybridMesh& mesh, const CaseOptions& options
   }
   case_patches.is_tunnel = has_opening && !has_farfield;
   require_driven_flow(mesh, has_farfield, case_patches, problems);
-  if (options.half == "automatic") require_planes(mesh, case_patches, problems);
   find_monitored(mesh, options, case_patches, problems);
+  if (options.half == "automatic" && !case_patches.is_internal) require_planes(mesh, case_patches, problems);
   find_half(options, n_symmetry, case_patches, problems);
   return case_patches;
 }

@@ -86,9 +86,11 @@ TEST_F(CaseCommands, ReportMistakesBeforeReadingTheMesh) {
 
 TEST_F(CaseCommands, KindsOfPatchesAreThoseOfTheCase) {
   run("local m = read_mesh(" + out("ball.sterna") + ")\nm:foam_case{ " + out("slips") +
-      ", reynolds = 100, length = 1, model = 'laminar', monitor = 'wall', kinds = { ['w*'] = 'symmetry', wall = 'slip', farfield = 'inflow' } }\nprint(m)");
-  EXPECT_THAT(text_of("slips/0/U"), AllOf(HasSubstr("type slip"), Not(HasSubstr("noSlip")), Not(HasSubstr("freestream")), HasSubstr("type fixedValue")));
+      ", reynolds = 100, length = 1, model = 'laminar', monitor = 'wall', kinds = { ['w*'] = 'symmetry', wall = 'slip' } }\nprint(m)");
+  EXPECT_THAT(text_of("slips/0/U"), AllOf(HasSubstr("type slip"), Not(HasSubstr("noSlip")), HasSubstr("freestream")));
   EXPECT_THAT(text_of("slips/constant/polyMesh/boundary"), Not(HasSubstr("type wall")));
+  EXPECT_THAT(error("read_mesh(" + out("ball.sterna") + "):foam_case{ " + out("no") + ", reynolds = 100, length = 1, kinds = { farfield = 'inflow' } }"),
+              AllOf(HasSubstr("an inflow, but no outflow or farfield"), HasSubstr("the inflow \"farfield\" has no direction")));
   const std::string reported =
       error("read_mesh(" + out("ball.sterna") + "):foam_case{ " + out("no") + ", reynolds = 100, length = 1, kinds = { top = 'slip' } }");
   EXPECT_THAT(reported, AllOf(HasSubstr("case.lua:1: mesh:foam_case"), HasSubstr("kinds[\"top\"]"), HasSubstr("names are farfield, wall")));
