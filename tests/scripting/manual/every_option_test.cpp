@@ -64,6 +64,7 @@ const std::map<std::string, std::string> k_statements = {
     {"envelope.initial.total_height", "envelope.initial{ wall, class, layers = 5, first_height = 0.01, total_height = 0.3 }"},
     {"jobs.tasks", "jobs{ tasks = 3 }"},  // or as the single number without a name
     {"y_plus.y_plus", "y_plus{ y_plus = 2, reynolds = 5e6, length = 7 }"},
+    {"mesh:check.solvers", "mesh:check{ solvers = 'su2' }"},
     {"mesh:su2_config.mesh", "mesh:su2_config{ 'case.cfg', mesh = 'other.su2', mach = 0.5, reynolds = 5e6, length = 7, reference_area = 1 }"},
     {"mesh:su2_config.wing", "mesh:su2_config{ 'case.cfg', wing = 'wing', mach = 0.5, reynolds = 5e6, length = 7, reference = main_wing }"},
     {"mesh:foam_case.wing", "mesh:foam_case{ 'case', wing = 'wing', reynolds = 5e6, length = 7, reference = main_wing }"},
