@@ -18,6 +18,8 @@ add_test(NAME references_self_test
 add_test(NAME prose COMMAND ${CMAKE_SOURCE_DIR}/tools/check_prose --root ${CMAKE_SOURCE_DIR})
 add_test(NAME prose_self_test COMMAND ${STERNA_SYSTEM_PYTHON} ${CMAKE_CURRENT_SOURCE_DIR}/tools/check_prose_test.py ${CMAKE_SOURCE_DIR}/tools/check_prose)
 add_test(NAME count_skips_self_test COMMAND ${STERNA_SYSTEM_PYTHON} ${CMAKE_CURRENT_SOURCE_DIR}/tools/count_skips_test.py ${CMAKE_SOURCE_DIR}/tools/count_skips)
+add_test(NAME compare_programs_self_test
+         COMMAND ${STERNA_SYSTEM_PYTHON} ${CMAKE_CURRENT_SOURCE_DIR}/tools/compare_programs_test.py ${CMAKE_SOURCE_DIR}/tools/compare_programs)
 add_test(NAME bench_self_test COMMAND ${STERNA_SYSTEM_PYTHON} ${CMAKE_CURRENT_SOURCE_DIR}/tools/bench_test.py ${CMAKE_SOURCE_DIR}/tools/bench)
 
 # ThreadSanitizer finds a deliberate race in parallel loops of sterna, and none in correct loops. The test uses the threads of the preset tsan, and runs in every preset.

@@ -26,7 +26,8 @@ inline constexpr double k_most_rounding = 0.01;
 /// \pre one rounded point for each point of the mesh, indices in range
 RoundedEdge worst_rounded_edge(const HybridMesh& mesh, std::span<const Point> rounded, const RunContext& context);
 
-/// Returns "single precision moves nodes by up to 20 % of the length of an edge, 1e-05 m at (1, 2, 3)"; empty if the share is at most k_most_rounding.
+/// Returns "single precision moves nodes against each other by up to 20 % of the length of their edge, 1e-05 m at (1, 2, 3) (limit 1 %)"; an empty string if
+/// the share is at most k_most_rounding.
 std::string rounding_text(const RoundedEdge& edge);
 
 }  // namespace sterna::io

@@ -181,6 +181,7 @@ FoamCase foam_case(const HybridMesh& mesh, const FoamOptions& options, const Cas
   FoamSetup setup{.options = options, .common = common, .flow = flow};
   setup.model = options.model != "automatic" ? options.model : case_patches.has_layers ? "SpalartAllmaras" : "euler";
   setup.is_viscous = setup.model != "euler";
+  setup.is_tunnel = case_patches.is_tunnel;
   setup.is_turbulent = setup.is_viscous && setup.model != "laminar";
   setup.is_compressible = is_compressible(options, flow);
   setup.application = std::string(setup.is_compressible ? "rho" : "") +
@@ -215,6 +216,11 @@ FoamCase foam_case(const HybridMesh& mesh, const FoamOptions& options, const Cas
   report(setup, case_patches, reference, context);
   if (setup.is_viscous) warn_of_collapsed_lines(mesh, context);
   report_without_effect(setup, boundaries, context);
+  if (setup.is_damped() && common.iterations < k_least_iterations)
+    context.warn(
+        fmt::format("OpenFOAM: runs of fewer than {} iterations have no first-order start, without which inviscid flow can diverge at sharp edges: give "
+                    "iterations = {} or more",
+                    k_least_iterations, k_least_iterations));
   return result;
 }
 

@@ -11,8 +11,7 @@
 namespace sterna::scripting {
 namespace {
 
-constexpr int k_part = 50;               ///< iterations between two tests by judge.awk
-constexpr int k_least_iterations = 150;  ///< smallest number of iterations for a separate start; the start has at most a third of all iterations
+constexpr int k_part = 50;  ///< iterations between two tests by judge.awk
 /// Limits of the largest velocity. A run has diverged if it exceeds k_diverged times the flow's speed, or k_diverged_inside times for contractions and jets,
 /// which are faster than flow around a body. The divergence began where it exceeded k_first_sign times that limit.
 constexpr double k_diverged = 10.0, k_diverged_inside = 100.0, k_first_sign = 0.5;

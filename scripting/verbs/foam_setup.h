@@ -13,6 +13,9 @@ namespace sterna::scripting {
 /// Heat capacity of air at constant pressure, J / (kg K).
 inline constexpr double k_heat_capacity = volmesh::k_gas_constant * volmesh::k_heat_ratio / (volmesh::k_heat_ratio - 1.0);
 
+/// Smallest number of iterations for a separate first-order start; the start has at most a third of all iterations.
+inline constexpr int k_least_iterations = 150;
+
 struct FoamSetup {
   FoamOptions options;
   CaseOptions common;
@@ -20,6 +23,7 @@ struct FoamSetup {
   std::string model;        ///< "euler", "laminar", "SpalartAllmaras", "kOmegaSST"
   bool is_compressible = false;
   bool is_viscous = false;
+  bool is_tunnel = false;  ///< CasePatches::is_tunnel
   bool is_turbulent = false;
   double nu = 0.0;       ///< m^2/s, kinematic viscosity
   double density = 1.0;  ///< kg/m^3, used for the reported forces
@@ -58,15 +62,18 @@ struct FoamSetup {
   bool is_damped() const { return options.steady && !is_viscous && !is_compressible; }
   /// Returns the unit vector along the free stream.
   Vec3 drag_direction() const { return normalized(velocity); }
-  /// Returns the unit vector perpendicular to the free stream, in the plane of x and z, upwards for every horizontal flow.
+  /// Returns the unit vector perpendicular to the free stream, in the plane of x and z. In tunnels it points upwards in whatever direction the flow enters;
+  /// otherwise it follows the angle of attack.
   Vec3 lift_direction() const {
     const Vec3 drag = drag_direction();
     if (std::hypot(drag.x, drag.z) == 0.0) return {0.0, 0.0, 1.0};
-    return normalized(drag.x < 0.0 ? Vec3{drag.z, 0.0, -drag.x} : Vec3{-drag.z, 0.0, drag.x});
+    const Vec3 lift = normalized(Vec3{-drag.z, 0.0, drag.x});
+    return is_tunnel && lift.z < 0.0 ? -1.0 * lift : lift;
   }
-  /// Returns the axis of pitching moments, which are positive nose-up: y for a flow along x, otherwise horizontal and perpendicular to the flow.
+  /// Returns the axis of pitching moments, which are positive nose-up: y, or in a tunnel the horizontal axis that is nearly perpendicular to the flow.
   Vec3 pitch_axis() const {
     const Vec3 drag = drag_direction();
+    if (!is_tunnel) return {0.0, 1.0, 0.0};
     if (std::abs(drag.y) > std::abs(drag.x)) return {drag.y > 0.0 ? -1.0 : 1.0, 0.0, 0.0};
     return {0.0, drag.x < 0.0 ? -1.0 : 1.0, 0.0};
   }

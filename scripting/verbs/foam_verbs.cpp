@@ -24,8 +24,8 @@ namespace sterna::scripting {
 namespace {
 
 constexpr double k_measured = 0.5;  ///< fraction of the progress after measuring the mesh
-/// Everything that foam_case and programs of OpenFOAM write into a case without results.
-constexpr std::array<std::string_view, 8> k_case_items = {"0", "constant", "system", "Allrun", "Allclean", "case.foam", "mesh.json", "dynamicCode"};
+/// Items that foam_case and programs of OpenFOAM write into a case without results, apart from NAME.foam and log.*.
+constexpr std::array<std::string_view, 7> k_case_items = {"0", "constant", "system", "Allrun", "Allclean", "mesh.json", "dynamicCode"};
 constexpr std::string_view k_proof = "system/controlDict";  ///< file that marks a folder as a case
 
 /// \param mesh the mesh for the solver, \param made its origin

@@ -63,12 +63,11 @@ std::vector<std::string> names_of_patches(const HybridMesh& mesh) {
   return names;
 }
 
-/// Adds a problem if nothing drives the flow, if it has a way in or out only, or if the direction of an inflow is unknown.
+/// Adds a problem if nothing drives the flow, if the flow can enter but not leave or leave but not enter, or if an inflow has no direction.
 void require_driven_flow(const HybridMesh& mesh, bool has_farfield, const CasePatches& case_patches, CaseProblems& problems) {
   const bool has_inflow = !case_patches.inflows.empty(), has_outflow = !case_patches.outflows.empty();
   const std::string remedy = ": give their kinds, e.g. kinds = { [\"outer*\"] = \"farfield\" } (on the command line --kind \"outer*=farfield\")";
-  if (!has_farfield && !has_inflow && !has_outflow && mesh.periodic.empty())
-    problems.add("the mesh has no farfield, inflow or outflow, so nothing drives the flow" + remedy);
+  if (!has_farfield && !has_inflow && !has_outflow) problems.add("the mesh has no farfield, inflow or outflow, so nothing drives the flow" + remedy);
   if (!has_farfield && has_inflow != has_outflow)
     problems.add(std::string("the mesh has ") + (has_inflow ? "an inflow, but no outflow or farfield" : "an outflow, but no inflow or farfield") + remedy);
   constexpr double k_least_share = 0.1;  // of the mean normal's length; 0.5 is a hemisphere

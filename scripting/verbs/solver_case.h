@@ -233,7 +233,7 @@ struct Schema<scripting::CaseBoundary> {
                .unit = k_kelvin,
                .min = -1e4,
                .max = 1e4,
-               .help = "jump of the total temperature over an actuator disc"},
+               .help = "jump of the total temperature over an actuator disc (OpenFOAM: of the static temperature)"},
   };
 };
 

@@ -448,6 +448,16 @@ TEST(FoamConditions, LiftPointsUpwardsInTunnelsOfAnyDirection) {
   EXPECT_THAT(settings({body, side, inlet, outlet}), AllOf(HasSubstr("dragDir (0 1 0)"), HasSubstr("liftDir (0 0 1)"), HasSubstr("pitchAxis (-1 0 0)")));
 }
 
+TEST(FoamConditions, AxesFollowTheAnglesOutsideOfTunnels) {
+  const HybridMesh mesh = test::box_of_patches({{"body", PatchKind::wall}, {"far", PatchKind::farfield}});
+  const volmesh::FlowState flow = volmesh::flow_state({.length = 1.0, .mach = 0.2, .altitude = 0.0});
+  const auto settings = [&](double alpha, double beta) {
+    return file_of(foam_case(mesh, {}, {.alpha = alpha, .beta = beta}, flow, {.area = 1.0}, {}, RunContext()), "system/controlDict");
+  };
+  EXPECT_THAT(settings(1.6, 0.0), AllOf(HasSubstr("liftDir (-0.999"), HasSubstr("0 -0.0291"), HasSubstr("pitchAxis (0 1 0)")));  // beyond 90 degrees
+  EXPECT_THAT(settings(0.0, 1.2), AllOf(HasSubstr("liftDir (0 0 1)"), HasSubstr("pitchAxis (0 1 0)")));
+}
+
 TEST(FoamConditions, HalfModelsCountHalfTheArea) {
   const HybridMesh mesh = test::box_of_patches({{"wing", PatchKind::wall}, {"plane", PatchKind::symmetry}, {"far", PatchKind::farfield}});
   const volmesh::FlowState flow = volmesh::flow_state({.length = 1.0, .mach = 0.2, .altitude = 0.0});
