@@ -32,6 +32,14 @@ class Id {
   constexpr explicit Id(std::uint32_t index) : Id(std::uint64_t{index}) {}
   constexpr explicit Id(int index) : Id(static_cast<std::uint64_t>(static_cast<std::int64_t>(index))) {}
 
+  /// Returns the id of an index without a test: for arithmetic with ids in inner loops.
+  /// \pre `index` is below k_invalid
+  static constexpr Id untested(std::uint32_t index) {
+    Id id;
+    id.value_ = index;
+    return id;
+  }
+
   constexpr bool is_valid() const { return value_ != k_invalid; }
   constexpr std::uint32_t value() const { return value_; }
   constexpr std::size_t index() const { return value_; }
