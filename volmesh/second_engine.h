@@ -19,7 +19,7 @@ struct SecondEngine {
   std::vector<SizeSource> sources;
   SizeFieldOptions sizes;
   std::vector<Vec3> holes;  ///< as in TetraBoundary::hole_points
-  bool has_sheets = false;
+  bool has_baffles = false;
   bool has_wakes = false;
 };
 

@@ -19,11 +19,11 @@ struct SizedModel {
 /// Samples the edges and computes the sizes required by options, curvature and locations.
 /// \pre `model` and `options` outlive the result
 /// \throws Error(bad_argument) for patch rules that match no patch, and for chord errors out of reach
-SizedModel sized_model(const Model& model, const SurfaceMeshOptions& options, std::span<const PatchSurfaceOptions> patches, const SpaceSizes& asked,
+SizedModel sized_model(const Model& model, const SurfaceMeshOptions& options, std::span<const PatchSurfaceOptions> patches, const SpaceSizes& requested,
                        const RunContext& context);
 
 /// Adds the sizes of narrow regions and, if requested, of gaps.
 /// \pre small parts have been absorbed
-void add_narrow_places(SizedModel& sized, const WingBands* bands, const RunContext& context);
+void add_narrow_locations(SizedModel& sized, const WingBands* bands, const RunContext& context);
 
 }  // namespace sterna::surfmesh

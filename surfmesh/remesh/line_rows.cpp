@@ -8,7 +8,7 @@
 #include "geom/math/constants.h"
 #include "geom/math/measures.h"
 #include "surfmesh/face/band_rows.h"
-#include "surfmesh/model/band_wish.h"
+#include "surfmesh/model/band_target.h"
 #include "surfmesh/model/wing_edges.h"
 #include "surfmesh/remesh/remesh_sizes.h"
 
@@ -61,7 +61,7 @@ struct LineShape {
 /// Returns the segment of the k-th sampled location on a line.
 std::uint32_t segment_of_look(const Reference& r, std::int32_t line, std::size_t k) {
   const double share = (static_cast<double>(k) + 0.5) / static_cast<double>(k_looks);
-  return r.line_place(line, share * r.lines[static_cast<std::size_t>(line)].length()).segment;
+  return r.line_location(line, share * r.lines[static_cast<std::size_t>(line)].length()).segment;
 }
 
 /// \param most m, upper limit of the measured widths
@@ -151,14 +151,14 @@ double width_across(const Reference& r, HalfedgeId h, double most) {
 
 RowLines find_row_lines(const Reference& r, const SurfaceLimitTable& limits_of, const RemeshOptions& options, std::span<const PatchSurfaceOptions> patches) {
   RowLines found;
-  std::vector<BandWishes> wishes;
-  bool is_leading_asked = false, is_trailing_asked = false;
+  std::vector<BandTargets> targets;
+  bool is_leading_requested = false, is_trailing_requested = false;
   for (const Patch& patch : r.mesh->patches) {
-    wishes.push_back(band_wishes(patch.name, options, patches));
-    is_leading_asked = is_leading_asked || wishes.back().leading.is_any();
-    is_trailing_asked = is_trailing_asked || wishes.back().trailing.is_any();
+    targets.push_back(band_targets(patch.name, options, patches));
+    is_leading_requested = is_leading_requested || targets.back().leading.is_any();
+    is_trailing_requested = is_trailing_requested || targets.back().trailing.is_any();
   }
-  if (!is_leading_asked && !is_trailing_asked) return found;
+  if (!is_leading_requested && !is_trailing_requested) return found;
   const double length = body_length(*r.mesh);
   bool is_leading_found = false, is_trailing_found = false;
   for (std::size_t l = 0; l < r.lines.size(); ++l) {
@@ -191,8 +191,8 @@ RowLines find_row_lines(const Reference& r, const SurfaceLimitTable& limits_of, 
     const std::array<TriangleId, 2> beside{triangle_of(left), triangle_of(r.topology.twin(left))};
     for (std::size_t i = 0; i < 2; ++i) {
       if (base && *base == i) continue;
-      const BandWishes& wish = wishes[r.mesh->triangle_patch[beside[i]].index()];
-      const BandWish& band = *kind == BandKind::leading ? wish.leading : wish.trailing;
+      const BandTargets& target = targets[r.mesh->triangle_patch[beside[i]].index()];
+      const BandTarget& band = *kind == BandKind::leading ? target.leading : target.trailing;
       if (!band.is_any()) continue;
       const SurfaceLimits& limits = limits_of.of(beside[i]);
       rows.sides[i] = {true, std::min(limits.max_edge, band.first_height(limits.max_edge)), band.growth, limits.curvature_angle, limits.min_edge};
@@ -221,9 +221,9 @@ RowLines find_row_lines(const Reference& r, const SurfaceLimitTable& limits_of, 
     const FeatureLine& line = r.lines[static_cast<std::size_t>(rows.line)];
     rows.is_going_on = {n_at[line.vertices.front().index()] == 2, n_at[line.vertices.back().index()] == 2};
   }
-  if (is_trailing_asked && !is_trailing_found)
+  if (is_trailing_requested && !is_trailing_found)
     found.notes.push_back("no rows at trailing edges: the surface has no trailing edge (a sharp edge, or a side of a narrow base, that faces aft along x)");
-  if (is_leading_asked && !is_leading_found)
+  if (is_leading_requested && !is_leading_found)
     found.notes.push_back(
         "no rows at leading edges: the surface has no leading edge (a sharp edge that faces forward along x, or a smooth nose, curved much more than the "
         "surface "

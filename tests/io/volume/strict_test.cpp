@@ -12,11 +12,11 @@
 
 #include "io/file/format_table.h"
 #include "tests/io/volume/volume_tools.h"
-#include "tests/support/constants.h"
 #include "tests/support/data.h"
 #include "tests/support/hybrid_shapes.h"
 #include "tests/support/reader_checks.h"
-#include "tests/support/shapes.h"
+#include "tests/support/test_constants.h"
+#include "tests/support/test_shapes.h"
 
 namespace sterna::io {
 namespace {
