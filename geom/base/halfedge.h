@@ -1,4 +1,5 @@
-// Half-edge arithmetic: half-edge 3 t + c starts at corner c of triangle t. The arguments are valid.
+// Half-edge arithmetic: half-edge 3 t + c starts at corner c of triangle t.
+// \pre all arguments are valid
 #pragma once
 
 #include <cstdint>

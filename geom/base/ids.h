@@ -11,7 +11,7 @@
 
 namespace sterna {
 
-/// Value of an invalid id. Raw 32-bit indices have it where there is no entity.
+/// Value of invalid ids, and of raw 32-bit indices that refer to no entity.
 inline constexpr std::uint32_t k_none = std::numeric_limits<std::uint32_t>::max();
 
 /// Throws Error(ErrorCode::overflow) naming the quantity that overflowed; defined in ids.cpp.

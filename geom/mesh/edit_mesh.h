@@ -1,4 +1,6 @@
 // Connectivity of a triangle mesh that is changed in place by flips, splits and collapses. Positions and other data are kept by the user of the mesh.
+// Two editors have a connectivity of their own: Delaunay triangulations (geom/delaunay/triangulation.h) keep a triangle in half a cache line and have triangles
+// at infinity; StripMesh (geom/boolean/strip_mesh.h) tries exchanges of triangles and takes them back.
 #pragma once
 
 #include "geom/base/halfedge.h"

@@ -1,9 +1,8 @@
 // Changes of connectivity without new points.
 //
 // Edge removal replaces the tetrahedra around an edge by pairs of tetrahedra over the best triangulation of the ring of vertices around it (2-3 for a ring of
-// 3, 4-4 for 4, etc.). Multi-face removal is the inverse operation: faces between the same
-// two vertices are replaced by the edge between these vertices. Based on: Shewchuk, Two discrete optimization algorithms for the topological improvement of
-// tetrahedral meshes (2002).
+// 3, 4-4 for 4, etc.). Multi-face removal is the inverse operation: faces between the same two vertices are replaced by the edge between these vertices. Based
+// on: Shewchuk, Two discrete optimization algorithms for the topological improvement of tetrahedral meshes (2002).
 
 #include <algorithm>
 

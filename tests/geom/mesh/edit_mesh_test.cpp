@@ -3,6 +3,8 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
+#include <random>
+#include <vector>
 
 namespace sterna {
 namespace {
@@ -112,6 +114,69 @@ TEST(EditMesh, RotationChangesOnlyTheFirstCorner) {
   EXPECT_EQ(mesh.triangles[t], (TriangleVertices{k_top, k_east, k_north}));
   expect_sound(mesh);
   EXPECT_EQ(valence(mesh, k_west), 4);
+}
+
+/// Returns the twins of half-edges without those of the last triangle.
+Column<HalfedgeId, HalfedgeId> without_last(const Column<HalfedgeId, HalfedgeId>& twins) {
+  Column<HalfedgeId, HalfedgeId> left = twins;
+  left.resize(twins.size() - 3);
+  for (HalfedgeId& twin : left)
+    if (twin.is_valid() && twin.index() >= left.size()) twin = {};
+  return left;
+}
+
+/// Returns vertices minus edges plus triangles.
+std::int64_t euler_characteristic(const EditMesh& mesh) {
+  std::int64_t sum = std::ranges::count_if(mesh.outgoing, [](HalfedgeId h) { return h.is_valid(); });
+  for (const HalfedgeId h : mesh.twins.ids())
+    if (!mesh.is_removed(triangle_of(h)) && !(mesh.twins[h] < h)) --sum;
+  return sum + std::ranges::count_if(mesh.triangles, [](const TriangleVertices& v) { return v[0].is_valid(); });
+}
+
+/// Returns true if the edge of `h` is inside the surface, at most one of its ends is on the boundary, and its ends have only two common neighbours.
+bool may_collapse(const EditMesh& mesh, HalfedgeId h) {
+  std::vector<VertexId> around;
+  std::array<bool, 2> is_at_boundary{};
+  for (const std::size_t i : {0, 1}) {
+    const VertexId v = i == 0 ? mesh.from(h) : mesh.to(h);
+    mesh.for_out(v, [&](HalfedgeId e) { is_at_boundary[i] = is_at_boundary[i] || !mesh.twins[e].is_valid() || !mesh.twins[previous(e)].is_valid(); });
+    mesh.for_ring(v, [&](VertexId w) { around.push_back(w); });
+  }
+  std::ranges::sort(around);
+  std::size_t n_common = 0;
+  for (std::size_t i = 0; i + 1 < around.size(); ++i) n_common += around[i] == around[i + 1] ? 1 : 0;
+  return mesh.twins[h].is_valid() && !(is_at_boundary[0] && is_at_boundary[1]) && n_common == 2;
+}
+
+/// Splits, flips and collapses edges at random. Never collapses if only a few vertices are left.
+void change(EditMesh& mesh, std::mt19937& random) {
+  const HalfedgeId h(static_cast<std::uint64_t>(random() % mesh.twins.size())), o = mesh.twins[h];
+  if (mesh.is_removed(triangle_of(h))) return;
+  const auto n_vertices = std::ranges::count_if(mesh.outgoing, [](HalfedgeId e) { return e.is_valid(); });
+  switch (random() % 4) {
+    case 0: mesh.split(h); break;
+    case 1: mesh.rotate(triangle_of(h), static_cast<int>(random() % 3)); break;
+    case 2:
+      if (!o.is_valid() || mesh.apex(h) == mesh.apex(o) || mesh.is_edge(mesh.apex(h), mesh.apex(o))) break;
+      mesh.flip(h, {mesh.from(h), mesh.apex(o), mesh.apex(h)}, {mesh.apex(o), mesh.to(h), mesh.apex(h)});
+      break;
+    default:
+      if (n_vertices > 6 && may_collapse(mesh, h)) mesh.collapse(h);
+  }
+}
+
+TEST(EditMesh, RandomChangesKeepClosedAndOpenSurfacesSound) {
+  for (const bool is_open : {false, true}) {
+    EditMesh mesh = octahedron();
+    if (is_open)
+      mesh = EditMesh(6, Column<TriangleId, TriangleVertices>(std::vector(mesh.triangles.begin(), mesh.triangles.end() - 1)), without_last(mesh.twins));
+    std::mt19937 random(11);
+    for (int n = 0; n < 1500; ++n) {
+      change(mesh, random);
+      if (n % 10 == 0) expect_sound(mesh);
+      ASSERT_EQ(euler_characteristic(mesh), is_open ? 1 : 2) << n;
+    }
+  }
 }
 
 }  // namespace
