@@ -33,7 +33,6 @@ constexpr double k_most_filled = 0.5;      ///< fraction of a region of the flui
 constexpr int k_careful_rounds = 30;       ///< rounds in which one tetrahedron at each location becomes fluid again; later all there
 constexpr int k_most_rounds = 10000;       ///< rounds of repairs; each but the last changes a tetrahedron for good
 constexpr double k_same_location = 1e-6;   ///< over the body length: open boundaries were moved at most this far into their plane
-constexpr std::uint32_t k_none = tets::k_none;
 
 Face sorted(Face f) {
   std::sort(f.begin(), f.end());

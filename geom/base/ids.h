@@ -11,6 +11,9 @@
 
 namespace sterna {
 
+/// Value of invalid ids, and of raw 32-bit indices that refer to no entity.
+inline constexpr std::uint32_t k_none = std::numeric_limits<std::uint32_t>::max();
+
 /// Throws Error(ErrorCode::overflow) naming the quantity that overflowed; defined in ids.cpp.
 [[noreturn]] void throw_id_overflow(std::uint64_t value);
 
@@ -18,15 +21,24 @@ namespace sterna {
 template <class Tag>
 class Id {
  public:
-  static constexpr std::uint32_t k_invalid = std::numeric_limits<std::uint32_t>::max();
+  static constexpr std::uint32_t k_invalid = k_none;
 
   constexpr Id() = default;
-  /// \throws Error(overflow) if `index` does not fit
+  /// \throws Error(overflow) if `index` is k_invalid or larger
   constexpr explicit Id(std::uint64_t index) : value_(static_cast<std::uint32_t>(index)) {
     if (index >= k_invalid) throw_id_overflow(index);
   }
-  constexpr explicit Id(std::uint32_t index) : value_(index) {}
+  /// \throws Error(overflow) if `index` is k_invalid
+  constexpr explicit Id(std::uint32_t index) : Id(std::uint64_t{index}) {}
   constexpr explicit Id(int index) : Id(static_cast<std::uint64_t>(static_cast<std::int64_t>(index))) {}
+
+  /// Returns the id of an index without a test: for arithmetic with ids in inner loops.
+  /// \pre `index` is below k_invalid
+  static constexpr Id untested(std::uint32_t index) {
+    Id id;
+    id.value_ = index;
+    return id;
+  }
 
   constexpr bool is_valid() const { return value_ != k_invalid; }
   constexpr std::uint32_t value() const { return value_; }

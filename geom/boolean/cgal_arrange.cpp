@@ -26,7 +26,6 @@ using VertexBase = CGAL::Triangulation_vertex_base_with_info_2<std::uint32_t, Ex
 using FaceBase = CGAL::Constrained_triangulation_face_base_2<ExactKernel>;
 using Planar =
     CGAL::Constrained_Delaunay_triangulation_2<ExactKernel, CGAL::Triangulation_data_structure_2<VertexBase, FaceBase>, CGAL::Exact_intersections_tag>;
-constexpr std::uint32_t k_no_vertex = 0xffffffffu;
 
 struct PointOrder {
   bool operator()(const Point3& a, const Point3& b) const { return CGAL::compare_xyz(a, b) == CGAL::SMALLER; }

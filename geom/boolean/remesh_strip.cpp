@@ -34,8 +34,7 @@ constexpr double k_poor_angle = 0.21;
 /// cos of 1 degree, within which the normals around a movable input vertex agree.
 constexpr double k_flat = 0.99985;
 
-using StripVertex = std::uint32_t;
-using EdgeEnds = std::array<StripVertex, 2>;
+using EdgeEnds = std::array<VertexId, 2>;
 
 /// An edge with its sorting key.
 struct RankedEdge {
@@ -86,7 +85,7 @@ class StripRemesher {
 
   StripOutput take() {
     StripOutput output;
-    for (std::uint32_t t = 0; t < mesh_.triangles.size(); ++t) {
+    for (const TriangleId t : mesh_.triangles.ids()) {
       if (!mesh_.is_alive[t]) continue;
       output.triangles.push_back(mesh_.triangles[t]);
       output.is_in_strip.push_back(is_touched(t));
@@ -96,13 +95,12 @@ class StripRemesher {
   }
 
  private:
-  static std::vector<char> find_curve(const StripInput& input) {
+  static Column<VertexId, char> find_curve(const StripInput& input) {
     // A vertex whose triangles belong to two solids is on the curve.
-    constexpr std::uint32_t k_none = 0xffffffffu;
-    std::vector<std::uint32_t> solid(input.points.size(), k_none);
-    std::vector<char> is_on_curve(input.points.size(), 0);
-    for (std::size_t t = 0; t < input.triangles.size(); ++t)
-      for (const StripVertex v : input.triangles[t].v) {
+    Column<VertexId, std::uint32_t> solid(input.points.size(), k_none);
+    Column<VertexId, char> is_on_curve(input.points.size(), 0);
+    for (const TriangleId t : input.triangles.ids())
+      for (const VertexId v : input.triangles[t].v) {
         if (solid[v] == k_none) solid[v] = input.solid[t];
         if (solid[v] != input.solid[t]) is_on_curve[v] = 1;
       }
@@ -110,12 +108,12 @@ class StripRemesher {
   }
 
   double length(const EdgeEnds& e) const { return distance(mesh_.points[e[0]], mesh_.points[e[1]]); }
-  bool may_change(StripVertex v) const { return is_new_[v] || is_in_strip_[v]; }
-  bool is_touched(std::uint32_t t) const {
+  bool may_change(VertexId v) const { return is_new_[v] || is_in_strip_[v]; }
+  bool is_touched(TriangleId t) const {
     const auto& v = mesh_.triangles[t].v;
     return may_change(v[0]) || may_change(v[1]) || may_change(v[2]);
   }
-  double tolerance(StripVertex a, StripVertex b) const { return options_.deviation * std::min(local_[a].longest, local_[b].longest); }
+  double tolerance(VertexId a, VertexId b) const { return options_.deviation * std::min(local_[a].longest, local_[b].longest); }
 
   /// Computes the distance of each vertex from the curve, along edges, up to the strip's width. Grades the edge lengths by this distance, from those at the
   /// curve to those of the input.
@@ -123,11 +121,11 @@ class StripRemesher {
     const std::size_t n = mesh_.points.size();
     local_ = base_;
     is_in_strip_.assign(n, 0);
-    std::vector<double> way(n, std::numeric_limits<double>::infinity());
-    std::vector<StripVertex> source(n, 0);
-    using Entry = std::pair<double, StripVertex>;
+    Column<VertexId, double> way(n, std::numeric_limits<double>::infinity());
+    Column<VertexId, VertexId> source(n);
+    using Entry = std::pair<double, VertexId>;
     std::priority_queue<Entry, std::vector<Entry>, std::greater<>> queue;
-    for (StripVertex v = 0; v < n; ++v) {
+    for (const VertexId v : mesh_.points.ids()) {
       if (!curve_[v] || mesh_.star[v].empty()) continue;
       way[v] = 0.0;
       source[v] = v;
@@ -142,7 +140,7 @@ class StripRemesher {
       local_[v].longest = std::min(base_[v].longest, at_curve.longest + (options_.strip_growth - 1.0) * d);
       if (d > options_.strip_width * at_curve.longest) continue;
       is_in_strip_[v] = 1;
-      for (const StripVertex w : mesh_.neighbours(v)) {
+      for (const VertexId w : mesh_.neighbours(v)) {
         const double further = d + length({v, w});
         if (!(further < way[w])) continue;
         way[w] = further;
@@ -156,7 +154,7 @@ class StripRemesher {
   template <class Accept>
   std::vector<RankedEdge> edges_where(const Accept& accept) const {
     std::vector<RankedEdge> found;
-    for (std::uint32_t t = 0; t < mesh_.triangles.size(); ++t) {
+    for (const TriangleId t : mesh_.triangles.ids()) {
       if (!mesh_.is_alive[t] || !is_touched(t)) continue;
       for (std::size_t k = 0; k < 3; ++k) {
         const EdgeEnds e{mesh_.triangles[t].v[k], mesh_.triangles[t].v[(k + 1) % 3]};
@@ -176,7 +174,7 @@ class StripRemesher {
     for (const RankedEdge& edge : edges) {
       const auto [a, b] = edge.ends;
       const bool is_on_curve = curve_[a] && curve_[b] && mesh_.is_kept_edge(a, b);
-      if (!mesh_.split(a, b)) continue;
+      if (!mesh_.split(a, b).is_valid()) continue;
       const auto mean = [](const LocalLength& x, const LocalLength& y) { return LocalLength{0.5 * (x.shortest + y.shortest), 0.5 * (x.longest + y.longest)}; };
       base_.push_back(mean(base_[a], base_[b]));
       local_.push_back(mean(local_[a], local_[b]));
@@ -187,7 +185,7 @@ class StripRemesher {
     }
   }
 
-  bool collapse(StripVertex from, StripVertex to, double least_angle) {
+  bool collapse(VertexId from, VertexId to, double least_angle) {
     if (!may_change(from)) return false;
     const CollapseLimits limits{.least_angle = least_angle,
                                 .longest = std::max(k_long * std::max(local_[from].longest, local_[to].longest), longest_around(from)),
@@ -198,16 +196,16 @@ class StripRemesher {
     return true;
   }
 
-  double longest_around(StripVertex v) const {
+  double longest_around(VertexId v) const {
     double longest = 0.0;
-    for (const StripVertex w : mesh_.neighbours(v)) longest = std::max(longest, length({v, w}));
+    for (const VertexId w : mesh_.neighbours(v)) longest = std::max(longest, length({v, w}));
     return longest;
   }
 
   void collapse_short() {
     for (const RankedEdge& edge : edges_where([&](const EdgeEnds& e) { return is_short(e); })) {
       auto [a, b] = edge.ends;
-      if (!mesh_.triangle_at(a, b)) continue;
+      if (!mesh_.triangle_at(a, b).is_valid()) continue;
       if (collapse(a, b, k_fair_angle)) continue;
       collapse(b, a, k_fair_angle);
     }
@@ -225,10 +223,10 @@ class StripRemesher {
   bool flip(const EdgeEnds& e) { return !mesh_.is_kept_edge(e[0], e[1]) && mesh_.flip(e[0], e[1], k_flip_gain, tolerance(e[0], e[1])); }
 
   /// Returns true if the vertex may move. An input vertex may move only in a plane, because elsewhere it defines the shape.
-  bool is_free(StripVertex v) const {
+  bool is_free(VertexId v) const {
     if (mesh_.star[v].empty() || !may_change(v) || curve_[v]) return false;
     const StripTriangle& first = mesh_.triangles[mesh_.star[v].front()];
-    for (const std::uint32_t t : mesh_.star[v]) {
+    for (const TriangleId t : mesh_.star[v]) {
       const StripTriangle& other = mesh_.triangles[t];
       if (other.region != first.region || (!is_new_[v] && dot(other.normal, first.normal) < k_flat)) return false;
     }
@@ -236,18 +234,18 @@ class StripRemesher {
   }
 
   void smooth() {
-    for (StripVertex v = 0; v < mesh_.points.size(); ++v) {
+    for (const VertexId v : mesh_.points.ids()) {
       if (!is_free(v)) continue;
       Vec3 sum;
-      const std::vector<StripVertex> around = mesh_.neighbours(v);
-      for (const StripVertex w : around) sum += mesh_.points[w];
+      const std::vector<VertexId> around = mesh_.neighbours(v);
+      for (const VertexId w : around) sum += mesh_.points[w];
       const Vec3 middle = sum / static_cast<double>(around.size());
       const NearestHit hit = reference_.nearest(middle, local_[v].longest);
       if (hit.triangle.is_valid() && mesh_.move(v, hit.point, tolerance(v, v))) ++n_moved_;
     }
   }
 
-  bool improve(std::uint32_t t) {
+  bool improve(TriangleId t) {
     const auto v = mesh_.triangles[t].v;
     std::array<RankedEdge, 3> edges;
     for (std::size_t k = 0; k < 3; ++k) edges[k] = {length({v[k], v[(k + 1) % 3]}), {v[k], v[(k + 1) % 3]}};
@@ -265,8 +263,8 @@ class StripRemesher {
 
   void remove_slivers() {
     for (int sweep = 0; sweep < k_sliver_sweeps; ++sweep) {
-      std::vector<std::pair<double, std::uint32_t>> poor;
-      for (std::uint32_t t = 0; t < mesh_.triangles.size(); ++t)
+      std::vector<std::pair<double, TriangleId>> poor;
+      for (const TriangleId t : mesh_.triangles.ids())
         if (mesh_.is_alive[t] && is_touched(t) && mesh_.min_angle(t) < k_poor_angle) poor.push_back({mesh_.min_angle(t), t});
       std::sort(poor.begin(), poor.end());
       bool has_changed = false;
@@ -279,7 +277,7 @@ class StripRemesher {
 
   StripQuality quality() const {
     StripQuality q{.min_angle = std::numeric_limits<double>::infinity(), .shortest_edge = std::numeric_limits<double>::infinity()};
-    for (std::uint32_t t = 0; t < mesh_.triangles.size(); ++t) {
+    for (const TriangleId t : mesh_.triangles.ids()) {
       if (!mesh_.is_alive[t] || !is_touched(t)) continue;
       ++q.n_triangles;
       const double angle = mesh_.min_angle(t);
@@ -293,20 +291,20 @@ class StripRemesher {
   }
 
   const UnionOptions& options_;
-  std::vector<char> curve_;        ///< per vertex: on an intersection curve
-  std::vector<LocalLength> base_;  ///< per vertex: lengths of the input
+  Column<VertexId, char> curve_;        ///< per vertex: on an intersection curve
+  Column<VertexId, LocalLength> base_;  ///< per vertex: lengths of the input
   StripMesh mesh_;
   const TriangleTree& reference_;
-  std::vector<char> is_new_;
-  std::vector<LocalLength> local_;  ///< per vertex: lengths of the input, limited by the growth from the curve
-  std::vector<char> is_in_strip_;
+  Column<VertexId, char> is_new_;
+  Column<VertexId, LocalLength> local_;  ///< per vertex: lengths of the input, limited by the growth from the curve
+  Column<VertexId, char> is_in_strip_;
   std::int64_t n_split_ = 0, n_collapsed_ = 0, n_flipped_ = 0, n_moved_ = 0;
 };
 
-TriMesh tri_mesh_of(const std::vector<Vec3>& points, const std::vector<StripTriangle>& triangles) {
+TriMesh tri_mesh_of(const Column<VertexId, Vec3>& points, const Column<TriangleId, StripTriangle>& triangles) {
   TriMesh mesh;
-  mesh.points.raw() = points;
-  for (const StripTriangle& t : triangles) mesh.triangles.push_back({VertexId(t.v[0]), VertexId(t.v[1]), VertexId(t.v[2])});
+  mesh.points = points;
+  for (const StripTriangle& t : triangles) mesh.triangles.push_back(t.v);
   return mesh;
 }
 

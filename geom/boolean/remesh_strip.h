@@ -17,14 +17,14 @@ struct LocalLength {
 };
 
 struct StripInput {
-  std::vector<Vec3> points;
-  std::vector<StripTriangle> triangles;
-  std::vector<std::uint32_t> solid;  ///< per triangle: the intersection curve consists of the edges between different solids
-  std::vector<LocalLength> length;   ///< per vertex: lengths of the input triangles of which its triangles are pieces
+  Column<VertexId, Vec3> points;
+  Column<TriangleId, StripTriangle> triangles;
+  Column<TriangleId, std::uint32_t> solid;  ///< per triangle: the intersection curve consists of the edges between different solids
+  Column<VertexId, LocalLength> length;     ///< per vertex: lengths of the input triangles of which its triangles are pieces
 };
 
 struct StripOutput {
-  std::vector<Vec3> points;
+  Column<VertexId, Vec3> points;
   std::vector<StripTriangle> triangles;
   std::vector<char> is_in_strip;  ///< per triangle
 };

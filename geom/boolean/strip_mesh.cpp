@@ -18,7 +18,7 @@ constexpr int k_least_exponent = -60;
 
 double min_angle_of(const Vec3& a, const Vec3& b, const Vec3& c) { return std::min({corner_angle(a, b, c), corner_angle(b, c, a), corner_angle(c, a, b)}); }
 
-bool contains(const std::vector<std::uint32_t>& list, std::uint32_t value) { return std::find(list.begin(), list.end(), value) != list.end(); }
+bool contains(const std::vector<VertexId>& list, VertexId value) { return std::find(list.begin(), list.end(), value) != list.end(); }
 
 }  // namespace
 
@@ -44,7 +44,7 @@ TriangleGrid::Level& TriangleGrid::level(int exponent) {
   return levels_.emplace_back(Level{.exponent = exponent, .cells = {}});
 }
 
-void TriangleGrid::insert(std::uint32_t triangle, const Box& box) {
+void TriangleGrid::insert(TriangleId triangle, const Box& box) {
   Level& home = level(exponent_of(box));
   const auto [low, high] = range_of(box, home.exponent);
   for (std::int64_t i = low[0]; i <= high[0]; ++i)
@@ -52,7 +52,7 @@ void TriangleGrid::insert(std::uint32_t triangle, const Box& box) {
       for (std::int64_t k = low[2]; k <= high[2]; ++k) home.cells[{i, j, k}].push_back(triangle);
 }
 
-void TriangleGrid::remove(std::uint32_t triangle, const Box& box) {
+void TriangleGrid::remove(TriangleId triangle, const Box& box) {
   Level& home = level(exponent_of(box));
   const auto [low, high] = range_of(box, home.exponent);
   for (std::int64_t i = low[0]; i <= high[0]; ++i)
@@ -65,77 +65,79 @@ void TriangleGrid::remove(std::uint32_t triangle, const Box& box) {
 
 // ---- Queries ----
 
-StripMesh::StripMesh(std::vector<Vec3> given_points, std::vector<StripTriangle> given_triangles, const StripLimits& limits, const TriangleTree& reference)
+StripMesh::StripMesh(Column<VertexId, Vec3> given_points, Column<TriangleId, StripTriangle> given_triangles, const StripLimits& limits,
+                     const TriangleTree& reference)
     : points(std::move(given_points)),
       triangles(std::move(given_triangles)),
       is_alive(triangles.size(), 0),
       star(points.size()),
       limits_(limits),
       reference_(reference) {
-  for (std::uint32_t t = 0; t < triangles.size(); ++t) insert(t);
+  for (const TriangleId t : triangles.ids()) insert(t);
 }
 
-std::array<Vec3, 3> StripMesh::corners(std::uint32_t t) const { return {points[triangles[t].v[0]], points[triangles[t].v[1]], points[triangles[t].v[2]]}; }
+std::array<Vec3, 3> StripMesh::corners(TriangleId t) const { return {points[triangles[t].v[0]], points[triangles[t].v[1]], points[triangles[t].v[2]]}; }
 
-double StripMesh::min_angle(const std::array<std::uint32_t, 3>& v) const { return min_angle_of(points[v[0]], points[v[1]], points[v[2]]); }
+double StripMesh::min_angle(const TriangleVertices& v) const { return min_angle_of(points[v[0]], points[v[1]], points[v[2]]); }
 
-Box StripMesh::box_of(std::uint32_t t) const {
+Box StripMesh::box_of(TriangleId t) const {
   Box box;
   for (const Vec3& p : corners(t)) box.add(p);
   return box;
 }
 
-std::optional<std::uint32_t> StripMesh::triangle_at(std::uint32_t a, std::uint32_t b) const {
-  for (const std::uint32_t t : star[a]) {
+TriangleId StripMesh::triangle_at(VertexId a, VertexId b) const {
+  for (const TriangleId t : star[a]) {
     const auto& v = triangles[t].v;
     for (std::size_t k = 0; k < 3; ++k)
       if (v[k] == a && v[(k + 1) % 3] == b) return t;
   }
-  return std::nullopt;
+  return {};
 }
 
-std::uint32_t StripMesh::opposite(std::uint32_t t, std::uint32_t a, std::uint32_t b) const {
-  for (const std::uint32_t v : triangles[t].v)
+VertexId StripMesh::opposite(TriangleId t, VertexId a, VertexId b) const {
+  for (const VertexId v : triangles[t].v)
     if (v != a && v != b) return v;
   return a;
 }
 
-bool StripMesh::is_kept_edge(std::uint32_t a, std::uint32_t b) const {
+bool StripMesh::is_kept_edge(VertexId a, VertexId b) const {
   const auto left = triangle_at(a, b), right = triangle_at(b, a);
-  if (!left || !right) return true;
-  const StripTriangle &s = triangles[*left], &t = triangles[*right];
+  if (!left.is_valid() || !right.is_valid()) return true;
+  const StripTriangle &s = triangles[left], &t = triangles[right];
   return s.region != t.region || dot(s.normal, t.normal) < std::cos(limits_.max_bend);
 }
 
-std::vector<std::uint32_t> StripMesh::neighbours(std::uint32_t v) const {
-  std::vector<std::uint32_t> found;
-  for (const std::uint32_t t : star[v])
-    for (const std::uint32_t w : triangles[t].v)
+std::vector<VertexId> StripMesh::neighbours(VertexId v) const {
+  std::vector<VertexId> found;
+  for (const TriangleId t : star[v])
+    for (const VertexId w : triangles[t].v)
       if (w != v) found.push_back(w);
   std::sort(found.begin(), found.end());
   found.erase(std::unique(found.begin(), found.end()), found.end());
   return found;
 }
 
-std::vector<std::uint32_t> StripMesh::kept_neighbours(std::uint32_t v) const {
-  std::vector<std::uint32_t> found = neighbours(v);
-  std::erase_if(found, [&](std::uint32_t w) { return !is_kept_edge(v, w); });
+std::vector<VertexId> StripMesh::kept_neighbours(VertexId v) const {
+  std::vector<VertexId> found = neighbours(v);
+  std::erase_if(found, [&](VertexId w) { return !is_kept_edge(v, w); });
   return found;
 }
 
-std::size_t StripMesh::count_crossings(std::span<const std::uint32_t> set) const {
+std::size_t StripMesh::count_crossings(std::span<const TriangleId> set) const {
   std::size_t n = 0;
-  std::vector<std::uint32_t> near;
-  for (const std::uint32_t t : set) {
+  std::vector<TriangleId> near;
+  const auto values = [&](TriangleId t) { return std::array{triangles[t].v[0].value(), triangles[t].v[1].value(), triangles[t].v[2].value()}; };
+  for (const TriangleId t : set) {
     const Box box = box_of(t);
     near.clear();
-    grid_.for_each_near(box, [&](std::uint32_t other) { near.push_back(other); });
+    grid_.for_each_near(box, [&](TriangleId other) { near.push_back(other); });
     std::sort(near.begin(), near.end());
     near.erase(std::unique(near.begin(), near.end()), near.end());
-    for (const std::uint32_t other : near) {
+    for (const TriangleId other : near) {
       if (other == t || !overlap(box, box_of(other))) continue;
       if (other < t && std::find(set.begin(), set.end(), other) != set.end()) continue;  // the pair is counted for the other triangle
-      if (triangles_cross(points, triangles[t].v, triangles[other].v)) ++n;
+      if (triangles_cross(points.raw(), values(t), values(other))) ++n;
     }
   }
   return n;
@@ -143,15 +145,15 @@ std::size_t StripMesh::count_crossings(std::span<const std::uint32_t> set) const
 
 // ---- Exchanges ----
 
-void StripMesh::insert(std::uint32_t t) {
+void StripMesh::insert(TriangleId t) {
   is_alive[t] = 1;
-  for (const std::uint32_t v : triangles[t].v) star[v].push_back(t);
+  for (const VertexId v : triangles[t].v) star[v].push_back(t);
   grid_.insert(t, box_of(t));
 }
 
-void StripMesh::remove(std::uint32_t t) {
+void StripMesh::remove(TriangleId t) {
   is_alive[t] = 0;
-  for (const std::uint32_t v : triangles[t].v) std::erase(star[v], t);
+  for (const VertexId v : triangles[t].v) std::erase(star[v], t);
   grid_.remove(t, box_of(t));
 }
 
@@ -176,25 +178,24 @@ bool StripMesh::is_near_reference(const Exchange& exchange, double tolerance) co
   return true;
 }
 
-void StripMesh::apply(const Exchange& exchange, std::vector<std::uint32_t>& added) {
-  for (const std::uint32_t t : exchange.removed) remove(t);
+void StripMesh::apply(const Exchange& exchange, std::vector<TriangleId>& added) {
+  for (const TriangleId t : exchange.removed) remove(t);
   for (const StripTriangle& t : exchange.added) {
-    added.push_back(static_cast<std::uint32_t>(triangles.size()));
-    triangles.push_back(t);
+    added.push_back(triangles.push_back(t));
     is_alive.push_back(0);
     insert(added.back());
   }
 }
 
-void StripMesh::revert(const Exchange& exchange, const std::vector<std::uint32_t>& added) {
-  for (const std::uint32_t t : added) remove(t);
+void StripMesh::revert(const Exchange& exchange, const std::vector<TriangleId>& added) {
+  for (const TriangleId t : added) remove(t);
   triangles.resize(triangles.size() - added.size());
   is_alive.resize(triangles.size());
-  for (const std::uint32_t t : exchange.removed) insert(t);
+  for (const TriangleId t : exchange.removed) insert(t);
 }
 
 bool StripMesh::exchange_without_crossing(const Exchange& exchange, bool may_leave) {
-  std::vector<std::uint32_t> added;
+  std::vector<TriangleId> added;
   apply(exchange, added);
   const std::size_t n_new = count_crossings(added);
   if (n_new == 0) return true;
@@ -206,44 +207,44 @@ bool StripMesh::exchange_without_crossing(const Exchange& exchange, bool may_lea
   return true;
 }
 
-bool StripMesh::flip(std::uint32_t a, std::uint32_t b, double min_gain, double tolerance) {
+bool StripMesh::flip(VertexId a, VertexId b, double min_gain, double tolerance) {
   const auto left = triangle_at(a, b), right = triangle_at(b, a);
-  if (!left || !right) return false;
-  const std::uint32_t c = opposite(*left, a, b), d = opposite(*right, a, b);
-  if (c == d || triangle_at(c, d) || triangle_at(d, c)) return false;
-  const StripTriangle &s = triangles[*left], &t = triangles[*right];
+  if (!left.is_valid() || !right.is_valid()) return false;
+  const VertexId c = opposite(left, a, b), d = opposite(right, a, b);
+  if (c == d || triangle_at(c, d).is_valid() || triangle_at(d, c).is_valid()) return false;
+  const StripTriangle &s = triangles[left], &t = triangles[right];
   const Vec3 normal = normalized(s.normal + t.normal);
-  const Exchange exchange{{*left, *right}, {{{a, d, c}, s.region, normal}, {{d, b, c}, s.region, normal}}};
-  const double before = std::min(min_angle(*left), min_angle(*right));
+  const Exchange exchange{{left, right}, {{{a, d, c}, s.region, normal}, {{d, b, c}, s.region, normal}}};
+  const double before = std::min(min_angle(left), min_angle(right));
   const double after = std::min(min_angle(exchange.added[0].v), min_angle(exchange.added[1].v));
   if (!(after > before + min_gain)) return false;
   return are_normals_sound(exchange) && is_near_reference(exchange, tolerance) && exchange_without_crossing(exchange);
 }
 
-bool StripMesh::is_way_along_kept_edges(std::uint32_t from, std::uint32_t to, double tolerance) const {
-  const std::vector<std::uint32_t> kept = kept_neighbours(from);
+bool StripMesh::is_way_along_kept_edges(VertexId from, VertexId to, double tolerance) const {
+  const std::vector<VertexId> kept = kept_neighbours(from);
   if (kept.empty()) return true;
   if (kept.size() != 2 || !contains(kept, to)) return false;
-  const std::uint32_t other = kept[0] == to ? kept[1] : kept[0];
+  const VertexId other = kept[0] == to ? kept[1] : kept[0];
   return distance(points[from], nearest_on_segment(points[from], points[to], points[other])) <= tolerance;
 }
 
-bool StripMesh::collapse(std::uint32_t from, std::uint32_t to, const CollapseLimits& limits) {
+bool StripMesh::collapse(VertexId from, VertexId to, const CollapseLimits& limits) {
   const auto left = triangle_at(from, to), right = triangle_at(to, from);
-  if (!left || !right) return false;
+  if (!left.is_valid() || !right.is_valid()) return false;
   const bool is_merge = limits.is_one_location || distance(points[from], points[to]) < limits.merge;
   if (!is_merge && !is_way_along_kept_edges(from, to, limits.tolerance)) return false;
   // Link condition: only the two triangles vanish, and the surface remains a closed manifold.
-  const std::vector<std::uint32_t> around_from = neighbours(from), around_to = neighbours(to);
-  std::vector<std::uint32_t> common;
+  const std::vector<VertexId> around_from = neighbours(from), around_to = neighbours(to);
+  std::vector<VertexId> common;
   std::set_intersection(around_from.begin(), around_from.end(), around_to.begin(), around_to.end(), std::back_inserter(common));
   if (common.size() != 2 || around_from.size() == 3) return false;
   Exchange exchange;
   double before = std::numbers::pi, after = std::numbers::pi, nearest = std::numeric_limits<double>::infinity();
-  for (const std::uint32_t t : star[from]) {
+  for (const TriangleId t : star[from]) {
     exchange.removed.push_back(t);
     before = std::min(before, min_angle(t));
-    if (t == *left || t == *right) continue;
+    if (t == left || t == right) continue;
     StripTriangle moved = triangles[t];
     std::replace(moved.v.begin(), moved.v.end(), from, to);
     after = std::min(after, min_angle(moved.v));
@@ -253,47 +254,46 @@ bool StripMesh::collapse(std::uint32_t from, std::uint32_t to, const CollapseLim
   }
   if (!is_merge && after < limits.least_angle && after <= before) return false;
   if (nearest > limits.tolerance) return false;
-  for (const std::uint32_t v : around_from)
+  for (const VertexId v : around_from)
     if (v != to && !contains(around_to, v) && distance(points[v], points[to]) > limits.longest) return false;
   return are_normals_sound(exchange, is_merge ? limits.merge : 0.0) && is_near_reference(exchange, limits.tolerance) &&
          exchange_without_crossing(exchange, is_merge);
 }
 
-std::optional<std::uint32_t> StripMesh::split(std::uint32_t a, std::uint32_t b) {
+VertexId StripMesh::split(VertexId a, VertexId b) {
   const auto left = triangle_at(a, b), right = triangle_at(b, a);
-  if (!left || !right) return std::nullopt;
-  const auto m = static_cast<std::uint32_t>(points.size());
-  points.push_back(0.5 * (points[a] + points[b]));
-  star.emplace_back();
-  const std::uint32_t c = opposite(*left, a, b), d = opposite(*right, a, b);
-  const StripTriangle &s = triangles[*left], &t = triangles[*right];
-  const Exchange exchange{{*left, *right},
+  if (!left.is_valid() || !right.is_valid()) return {};
+  const VertexId m = points.push_back(0.5 * (points[a] + points[b]));
+  star.push_back({});
+  const VertexId c = opposite(left, a, b), d = opposite(right, a, b);
+  const StripTriangle &s = triangles[left], &t = triangles[right];
+  const Exchange exchange{{left, right},
                           {{{a, m, c}, s.region, s.normal}, {{m, b, c}, s.region, s.normal}, {{b, m, d}, t.region, t.normal}, {{m, a, d}, t.region, t.normal}}};
   if (are_normals_sound(exchange) && exchange_without_crossing(exchange)) return m;
-  points.pop_back();
-  star.pop_back();
-  return std::nullopt;
+  points.raw().pop_back();
+  star.raw().pop_back();
+  return {};
 }
 
-bool StripMesh::move(std::uint32_t v, const Vec3& to, double tolerance) {
+bool StripMesh::move(VertexId v, const Vec3& to, double tolerance) {
   Exchange exchange;
   exchange.removed = star[v];
   double before = std::numbers::pi;
-  for (const std::uint32_t t : star[v]) {
+  for (const TriangleId t : star[v]) {
     exchange.added.push_back(triangles[t]);
     before = std::min(before, min_angle(t));
   }
   const Vec3 home = points[v];
   const std::size_t n_before = count_crossings(exchange.removed);
-  for (const std::uint32_t t : exchange.removed) grid_.remove(t, box_of(t));
+  for (const TriangleId t : exchange.removed) grid_.remove(t, box_of(t));
   points[v] = to;
-  for (const std::uint32_t t : exchange.removed) grid_.insert(t, box_of(t));
+  for (const TriangleId t : exchange.removed) grid_.insert(t, box_of(t));
   double after = std::numbers::pi;
-  for (const std::uint32_t t : exchange.removed) after = std::min(after, min_angle(t));
+  for (const TriangleId t : exchange.removed) after = std::min(after, min_angle(t));
   if (after > before && are_normals_sound(exchange) && is_near_reference(exchange, tolerance) && count_crossings(exchange.removed) <= n_before) return true;
-  for (const std::uint32_t t : exchange.removed) grid_.remove(t, box_of(t));
+  for (const TriangleId t : exchange.removed) grid_.remove(t, box_of(t));
   points[v] = home;
-  for (const std::uint32_t t : exchange.removed) grid_.insert(t, box_of(t));
+  for (const TriangleId t : exchange.removed) grid_.insert(t, box_of(t));
   return false;
 }
 

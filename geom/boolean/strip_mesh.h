@@ -5,11 +5,11 @@
 #include <array>
 #include <cstdint>
 #include <limits>
-#include <optional>
 #include <span>
 #include <unordered_map>
 #include <vector>
 
+#include "geom/base/ids.h"
 #include "geom/mesh/bvh.h"
 
 namespace sterna {
@@ -17,8 +17,8 @@ namespace sterna {
 /// Spatial index of triangles: hashed cells of sizes 2^k, each triangle in the cells of about its own size.
 class TriangleGrid {
  public:
-  void insert(std::uint32_t triangle, const Box& box);
-  void remove(std::uint32_t triangle, const Box& box);
+  void insert(TriangleId triangle, const Box& box);
+  void remove(TriangleId triangle, const Box& box);
   /// Visits candidates whose boxes may overlap `box`, some of them several times.
   template <class Visit>
   void for_each_near(const Box& box, const Visit& visit) const;
@@ -32,7 +32,7 @@ class TriangleGrid {
   };
   struct Level {
     int exponent = 0;
-    std::unordered_map<Cell, std::vector<std::uint32_t>, CellHash> cells;
+    std::unordered_map<Cell, std::vector<TriangleId>, CellHash> cells;
   };
   static int exponent_of(const Box& box);
   static std::array<Cell, 2> range_of(const Box& box, int exponent);
@@ -43,7 +43,7 @@ class TriangleGrid {
 
 /// A triangle with the data that the remesher needs.
 struct StripTriangle {
-  std::array<std::uint32_t, 3> v{};
+  TriangleVertices v{};
   std::uint32_t region = 0;  ///< the input part and patch that it lies on
   Vec3 normal;               ///< unit normal of the input triangle that it is a piece of; after merging, between the normals of the merged triangles
 };
@@ -68,58 +68,58 @@ class StripMesh {
  public:
   /// `reference`: the surface that limits the deviation; must outlive this object.
   /// \pre closed, manifold
-  StripMesh(std::vector<Vec3> points, std::vector<StripTriangle> triangles, const StripLimits& limits, const TriangleTree& reference);
+  StripMesh(Column<VertexId, Vec3> points, Column<TriangleId, StripTriangle> triangles, const StripLimits& limits, const TriangleTree& reference);
 
-  std::vector<Vec3> points;
-  std::vector<StripTriangle> triangles;
-  std::vector<char> is_alive;                    ///< per triangle
-  std::vector<std::vector<std::uint32_t>> star;  ///< existing triangles at each vertex; empty: the vertex was removed
+  Column<VertexId, Vec3> points;
+  Column<TriangleId, StripTriangle> triangles;
+  Column<TriangleId, char> is_alive;
+  Column<VertexId, std::vector<TriangleId>> star;  ///< existing triangles at each vertex; empty: the vertex was removed
 
-  std::array<Vec3, 3> corners(std::uint32_t t) const;
+  std::array<Vec3, 3> corners(TriangleId t) const;
   /// Returns the smallest angle, rad; 0 for zero area.
-  double min_angle(std::uint32_t t) const { return min_angle(triangles[t].v); }
-  double min_angle(const std::array<std::uint32_t, 3>& v) const;
-  /// Returns the triangle with the directed edge a -> b; empty if there is no such edge.
-  std::optional<std::uint32_t> triangle_at(std::uint32_t a, std::uint32_t b) const;
-  std::uint32_t opposite(std::uint32_t t, std::uint32_t a, std::uint32_t b) const;
+  double min_angle(TriangleId t) const { return min_angle(triangles[t].v); }
+  double min_angle(const TriangleVertices& v) const;
+  /// Returns the triangle with the directed edge a -> b; an invalid one if there is no such edge.
+  TriangleId triangle_at(VertexId a, VertexId b) const;
+  VertexId opposite(TriangleId t, VertexId a, VertexId b) const;
   /// Returns true if the edge is a border of regions (including intersection curves of parts) or a ridge.
-  bool is_kept_edge(std::uint32_t a, std::uint32_t b) const;
+  bool is_kept_edge(VertexId a, VertexId b) const;
   /// Returns the neighbouring vertices, ascending.
-  std::vector<std::uint32_t> neighbours(std::uint32_t v) const;
-  std::vector<std::uint32_t> kept_neighbours(std::uint32_t v) const;
+  std::vector<VertexId> neighbours(VertexId v) const;
+  std::vector<VertexId> kept_neighbours(VertexId v) const;
 
   /// The following operations change the mesh and return true, or leave it unchanged and return false. `tolerance` (m): largest distance from the reference.
   /// flip replaces the edge by the other diagonal.
   /// \pre the edge is not kept
-  bool flip(std::uint32_t a, std::uint32_t b, double min_gain, double tolerance);
+  bool flip(VertexId a, VertexId b, double min_gain, double tolerance);
   /// Moves `from` to `to` and merges the two. A vertex on kept edges can only move along them; a corner cannot move.
-  bool collapse(std::uint32_t from, std::uint32_t to, const CollapseLimits& limits);
-  /// Inserts a new vertex at the midpoint of an edge and returns its index.
-  std::optional<std::uint32_t> split(std::uint32_t a, std::uint32_t b);
+  bool collapse(VertexId from, VertexId to, const CollapseLimits& limits);
+  /// Inserts a new vertex at the midpoint of an edge and returns it; returns an invalid vertex if the mesh is unchanged.
+  VertexId split(VertexId a, VertexId b);
   /// Moves a vertex that is not on kept edges if that increases the smallest angle around it.
-  bool move(std::uint32_t v, const Vec3& to, double tolerance);
+  bool move(VertexId v, const Vec3& to, double tolerance);
 
   /// Returns the number of crossing pairs between triangles of `set` and all others.
-  std::size_t count_crossings(std::span<const std::uint32_t> set) const;
+  std::size_t count_crossings(std::span<const TriangleId> set) const;
 
  private:
   struct Exchange {
-    std::vector<std::uint32_t> removed;
+    std::vector<TriangleId> removed;
     std::vector<StripTriangle> added;
   };
   /// Returns true if no new triangle turns from its input triangle by more than max_bend. Triangles thinner than `negligible` (m) are not tested, since they
   /// have no normal.
   bool are_normals_sound(const Exchange& exchange, double negligible = 0.0) const;
   /// Returns true if the kept edges at `from` allow moving it to `to`.
-  bool is_way_along_kept_edges(std::uint32_t from, std::uint32_t to, double tolerance) const;
+  bool is_way_along_kept_edges(VertexId from, VertexId to, double tolerance) const;
   bool is_near_reference(const Exchange& exchange, double tolerance) const;
   /// Applies the exchange. Reverts it if it causes new crossings, or does not reduce their number (with `may_leave` an equal number is accepted).
   bool exchange_without_crossing(const Exchange& exchange, bool may_leave = false);
-  void apply(const Exchange& exchange, std::vector<std::uint32_t>& added);
-  void revert(const Exchange& exchange, const std::vector<std::uint32_t>& added);
-  void insert(std::uint32_t t);
-  void remove(std::uint32_t t);
-  Box box_of(std::uint32_t t) const;
+  void apply(const Exchange& exchange, std::vector<TriangleId>& added);
+  void revert(const Exchange& exchange, const std::vector<TriangleId>& added);
+  void insert(TriangleId t);
+  void remove(TriangleId t);
+  Box box_of(TriangleId t) const;
 
   StripLimits limits_;
   const TriangleTree& reference_;
@@ -137,7 +137,7 @@ void TriangleGrid::for_each_near(const Box& box, const Visit& visit) const {
     if (n_cells > static_cast<double>(level.cells.size())) {  // a large box among small triangles
       for (const auto& [cell, items] : level.cells) {
         if (cell[0] < low[0] || cell[0] > high[0] || cell[1] < low[1] || cell[1] > high[1] || cell[2] < low[2] || cell[2] > high[2]) continue;
-        for (const std::uint32_t t : items) visit(t);
+        for (const TriangleId t : items) visit(t);
       }
       continue;
     }
@@ -146,7 +146,7 @@ void TriangleGrid::for_each_near(const Box& box, const Visit& visit) const {
         for (std::int64_t k = low[2]; k <= high[2]; ++k) {
           const auto found = level.cells.find({i, j, k});
           if (found == level.cells.end()) continue;
-          for (const std::uint32_t t : found->second) visit(t);
+          for (const TriangleId t : found->second) visit(t);
         }
   }
 }

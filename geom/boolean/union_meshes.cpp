@@ -165,14 +165,16 @@ StripInput strip_input(const TaggedSolid& surface, const SolidParts& parts) {
   for (std::uint32_t t = 0; t < order.size(); ++t) order[t] = t;
   std::stable_sort(order.begin(), order.end(), [&](std::uint32_t a, std::uint32_t b) { return surface.tag[a] < surface.tag[b]; });
   StripInput input;
-  input.points = surface.points;
-  constexpr double k_none = 1e300;
-  input.length.assign(input.points.size(), {k_none, k_none});
+  input.points = Column<VertexId, Vec3>(surface.points);
+  constexpr double k_no_length = 1e300;
+  input.length.assign(input.points.size(), {k_no_length, k_no_length});
   for (const std::uint32_t t : order) {
     const InputFacet& facet = parts.facets[surface.tag[t]];
-    input.triangles.push_back({surface.triangles[t], facet.region, facet.normal});
+    const auto& corners = surface.triangles[t];
+    const TriangleVertices ids{VertexId(corners[0]), VertexId(corners[1]), VertexId(corners[2])};
+    input.triangles.push_back({ids, facet.region, facet.normal});
     input.solid.push_back(facet.solid);
-    for (const std::uint32_t v : surface.triangles[t]) {
+    for (const VertexId v : ids) {
       input.length[v].shortest = std::min(input.length[v].shortest, facet.length.shortest);
       input.length[v].longest = std::min(input.length[v].longest, facet.length.longest);
     }
@@ -181,11 +183,11 @@ StripInput strip_input(const TaggedSolid& surface, const SolidParts& parts) {
 }
 
 void measure_curves(const StripInput& input, UnionReport& report) {
-  std::map<std::array<std::uint32_t, 2>, std::uint32_t> seen;  // edge -> solid
+  std::map<std::array<VertexId, 2>, std::uint32_t> seen;  // edge -> solid
   CompensatedSum length;
-  for (std::size_t t = 0; t < input.triangles.size(); ++t)
+  for (const TriangleId t : input.triangles.ids())
     for (std::size_t k = 0; k < 3; ++k) {
-      const std::uint32_t a = input.triangles[t].v[k], b = input.triangles[t].v[(k + 1) % 3];
+      const VertexId a = input.triangles[t].v[k], b = input.triangles[t].v[(k + 1) % 3];
       const auto [other, is_new] = seen.try_emplace({std::min(a, b), std::max(a, b)}, input.solid[t]);
       if (is_new || other->second == input.solid[t]) continue;
       ++report.n_curve_edges;
@@ -195,7 +197,7 @@ void measure_curves(const StripInput& input, UnionReport& report) {
 }
 
 /// Assembles the mesh: vertices by first use, patches in the order of the parts, without patches that have no triangles.
-TriMesh assemble(const std::vector<Vec3>& points, const std::vector<StripTriangle>& triangles, const SolidParts& parts) {
+TriMesh assemble(const Column<VertexId, Vec3>& points, const std::vector<StripTriangle>& triangles, const SolidParts& parts) {
   std::vector<char> is_used(parts.region_patch.size(), 0);
   for (const StripTriangle& t : triangles) is_used[t.region] = 1;
   TriMesh mesh;
@@ -206,7 +208,7 @@ TriMesh assemble(const std::vector<Vec3>& points, const std::vector<StripTriangl
     const auto known = std::find(mesh.patches.begin(), mesh.patches.end(), patch);
     region2patch[r] = known != mesh.patches.end() ? PatchId(static_cast<std::uint64_t>(known - mesh.patches.begin())) : mesh.patches.push_back(patch);
   }
-  std::vector<VertexId> number(points.size());
+  Column<VertexId, VertexId> number(points.size());
   for (const StripTriangle& t : triangles) {
     TriangleVertices v;
     for (std::size_t k = 0; k < 3; ++k) {
@@ -332,7 +334,7 @@ UnionResult unite_meshes(const std::vector<UnionPart>& parts, const UnionOptions
   measure_curves(strip, report);
 
   if (options.remesh && report.n_curve_edges > 0) {
-    const TriMesh exact = assemble(strip.points, strip.triangles, solids);
+    const TriMesh exact = assemble(strip.points, strip.triangles.raw(), solids);
     const StripOutput remeshed = remesh_strip(std::move(strip), options, report, context.part("remesh", k_unite_end, k_remesh_end));
     result.mesh = assemble(remeshed.points, remeshed.triangles, solids);
     warn_of_changed_geometry(exact, result.mesh, options, context);
@@ -340,7 +342,7 @@ UnionResult unite_meshes(const std::vector<UnionPart>& parts, const UnionOptions
                                     farthest_from(TriangleTree(result.mesh, context), samples_of(exact), context));
     report.messages.push_back(strip_text(report));
   } else {
-    result.mesh = assemble(strip.points, strip.triangles, solids);
+    result.mesh = assemble(strip.points, strip.triangles.raw(), solids);
   }
   require_free_of_crossings(result.mesh, context.part("prove", k_remesh_end, 1.0));
   for (const std::string& message : report.messages) context.info("union: " + message);

@@ -158,8 +158,7 @@ std::vector<TriangleVertices> extract_triangles(const Triangulation& mesh) {
 
 void carve(Triangulation& mesh) {
   // Flood fill by depth: triangles reached from outside without crossing a border are at depth 0, behind one border at depth 1 ...
-  constexpr std::uint32_t k_unseen = ~0u;
-  Column<TriangleId, std::uint32_t> depth(mesh.cells.size(), k_unseen);
+  Column<TriangleId, std::uint32_t> depth(mesh.cells.size(), k_none);
   std::vector<TriangleId> level, next_level;
   for (const TriangleId t : mesh.cells.ids())
     if (!mesh.cells[t].is_dead && mesh.is_ghost(t)) level.push_back(t);
@@ -167,11 +166,11 @@ void carve(Triangulation& mesh) {
     while (!level.empty()) {
       const TriangleId t = level.back();
       level.pop_back();
-      if (depth[t] != k_unseen) continue;
+      if (depth[t] != k_none) continue;
       depth[t] = d;
       for (std::uint32_t c = 0; c < 3; ++c) {
         const TriangleId other = triangle_of(mesh.cells[t].twin[c]);
-        if (depth[other] != k_unseen) continue;
+        if (depth[other] != k_none) continue;
         ((mesh.cells[t].flags[c] & k_domain_border) != 0 ? next_level : level).push_back(other);
       }
     }

@@ -8,7 +8,7 @@
 namespace sterna {
 namespace {
 
-/// A face with the locations of its corners, ascending; the last entry of a triangle is k_no_side.
+/// A face with the locations of its corners, ascending; the last entry of a triangle is k_none.
 struct Candidate {
   std::array<std::uint32_t, 4> locations;
   std::uint32_t face;
@@ -23,7 +23,7 @@ class Finder {
     number_locations(points, faces, nodes_of);
     std::vector<Candidate> candidates;
     for (const std::uint32_t face : faces) {
-      Candidate c{{k_no_side, k_no_side, k_no_side, k_no_side}, face};
+      Candidate c{{k_none, k_none, k_none, k_none}, face};
       const auto nodes = nodes_of(face);
       for (std::size_t k = 0; k < nodes.size(); ++k) c.locations[k] = location_of(nodes[k]);
       std::ranges::sort(c.locations);
@@ -35,7 +35,7 @@ class Finder {
       const Candidate &a = candidates[i], &b = candidates[i + 1];
       if (a.locations != b.locations || !is_turned(nodes_of(a.face), nodes_of(b.face))) continue;
       if (sides.empty()) {
-        sides.other_side.assign(n_faces, k_no_side);
+        sides.other_side.assign(n_faces, k_none);
         sides.twin.resize(points.size());
         std::iota(sides.twin.begin(), sides.twin.end(), 0u);
       }

@@ -126,7 +126,7 @@ CellCentredScan gathered(CellCentredScan scan, std::size_t n, const Add& add, co
 /// Returns true if all faces of a cell of a column are between cells of columns. \pre prismatic
 bool is_amid_columns(const LayerBlock& layers, std::span<const std::uint32_t> neighbours, std::size_t column, int layer) {
   if (layer == 0 || layer + 1 == layers.layers_of_column(column)) return false;
-  return neighbours[3 * column] != k_no_slot && neighbours[3 * column + 1] != k_no_slot && neighbours[3 * column + 2] != k_no_slot;
+  return neighbours[3 * column] != k_none && neighbours[3 * column + 1] != k_none && neighbours[3 * column + 2] != k_none;
 }
 
 /// Cells of columns and the faces between them, one chunk of columns after the other.
@@ -204,7 +204,7 @@ class ColumnCentres {
     for (std::size_t j = 0; j < tops.size(); ++j) add_stacked(scan, first + 8 * j + k_top, tops[j]);
     for (std::size_t k = 0; k < 3; ++k) {
       const std::uint32_t other = neighbours_[3 * c + k];
-      if (other == k_no_slot || other < c) continue;
+      if (other == k_none || other < c) continue;
       const std::span<const InnerFace> sides = own_.side(k, locations_of(c), locations_after(other));
       for (std::size_t j = 0; j < sides.size(); ++j) add_face(scan, first + 8 * j + k, sides[j], true);
     }
@@ -218,7 +218,7 @@ class ColumnCentres {
       add_stacked(scan, first + 8 * static_cast<std::uint64_t>(j) + k_top, inner_face(top_of(mesh_, c, j).span(), locations[j], locations[j + 1]));
     for (std::size_t k = 0; k < 3; ++k) {
       const std::uint32_t other = neighbours_[3 * c + k];
-      if (other == k_no_slot || other < c) continue;
+      if (other == k_none || other < c) continue;
       const CellCentre* const beyond = locations_after(other);
       for (int j = 0; j < n; ++j) {
         const Corners side = side_of(mesh_, c, k, j);

@@ -163,7 +163,7 @@ LayerCheck check_moved_lines(const LayerCheck& known, const HybridMesh& mesh, st
     lines_around.insert(lines_around.end(), base.begin(), base.end());
     columns_and_beside.push_back(c);
     for (std::size_t k = 0; k < 3 && !neighbours.empty(); ++k)
-      if (neighbours[3 * c + k] != k_no_slot) columns_and_beside.push_back(neighbours[3 * c + k]);
+      if (neighbours[3 * c + k] != k_none) columns_and_beside.push_back(neighbours[3 * c + k]);
   }
   auto parts = std::make_unique<LayerCheck::Parts>(*known.parts());
   parts->columns.forget(columns);

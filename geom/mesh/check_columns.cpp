@@ -37,7 +37,7 @@ std::vector<OpenSide> find_open_sides(const LayerBlock& layers, const RunContext
       edges[cursor[std::min(u, v)]++] = {std::max(u, v), static_cast<std::uint32_t>(side), u > v};
     }
   }
-  if (neighbours) neighbours->assign(n_sides, k_no_slot);
+  if (neighbours) neighbours->assign(n_sides, k_none);
   std::vector<std::uint32_t> open = parallel_reduce(
       context, n_lines, std::vector<std::uint32_t>{},
       [&](std::size_t begin, std::size_t end) {

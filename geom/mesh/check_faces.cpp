@@ -110,7 +110,7 @@ FaceMatch match_faces(const FaceSlots& slots, std::size_t n_points, std::uint64_
   for (std::size_t node = 0; node < n_points; ++node) first[node + 1] = first[node] + cursor[node];
 
   FaceMatch match = make_match();
-  std::vector<std::uint32_t> cap_neighbours(slots.n_prism_caps(), k_no_slot);  // each entry is written once: a face is judged once
+  std::vector<std::uint32_t> cap_neighbours(slots.n_prism_caps(), k_none);  // each entry is written once: a face is judged once
   std::vector<FaceKey> keys;
   for (std::size_t begin_node = 0; begin_node < n_points;) {
     std::size_t end_node = begin_node + 1;

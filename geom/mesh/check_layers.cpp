@@ -213,7 +213,6 @@ std::vector<FacingTriangle> facing_triangles(const HybridMesh& mesh, const Layer
   }
   const auto add = [&](PatchId patch, NodeId a, NodeId b, NodeId c) {
     if (patch.index() < has_layers.size() && has_layers[patch.index()] != 0) return;
-    constexpr std::uint32_t k_none = FacingTriangle::k_no_line;
     facing.push_back({.corners = {mesh.points[a], mesh.points[b], mesh.points[c]}, .base_lines = {k_none, k_none, k_none}});
   };
   for (const BoundaryTriangle& t : mesh.boundary_triangles) add(t.patch, t.nodes[0], t.nodes[1], t.nodes[2]);

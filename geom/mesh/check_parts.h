@@ -193,10 +193,9 @@ struct FaceMatch {
   std::optional<GateScan> tet_growth;         ///< volume ratios; ids are slots; only if requested
   bool with_pairs = false;
   std::vector<std::array<std::uint32_t, 2>> pairs;  ///< slots of faces that two cells share; only if requested
-  std::vector<std::uint32_t> cap_neighbours;        ///< per bottom and top of explicit prisms: slot of the same face on the other side, or k_no_slot if no
+  std::vector<std::uint32_t> cap_neighbours;        ///< per bottom and top of explicit prisms: slot of the same face on the other side, or k_none if no
                                                     ///< other cell has it
 };
-inline constexpr std::uint32_t k_no_slot = 0xffffffffu;
 
 /// Result of one pass over all cells.
 struct CellScan {
@@ -213,7 +212,7 @@ struct CellScan {
 /// Reports bad_index, bad_point, broken_line, unused_node. Returns true if every index is valid and every point is finite.
 bool check_indices(const HybridMesh& mesh, const CellNumbers& cells, const RunContext& context, Findings& findings);
 /// Returns the base edges that are not shared by exactly two columns of opposite sense. Edges between two collapsed lines have no faces and do not count.
-/// `neighbours`: receives for each column and corner the column on the other side, or k_no_slot if there is not exactly one.
+/// `neighbours`: receives for each column and corner the column on the other side, or k_none if there is not exactly one.
 std::vector<OpenSide> find_open_sides(const LayerBlock& layers, const RunContext& context, std::vector<std::uint32_t>* neighbours = nullptr);
 /// Matches the faces of cells and boundary. Holds at most `faces_at_a_time` faces at a time, or the faces of one lowest node if they are more.
 /// Measures volume ratios over the faces between explicit tets if `tet_volumes` holds the volumes of the tets.

@@ -17,7 +17,6 @@ constexpr std::size_t k_samples = 24;        ///< facets of a part that are sear
 constexpr double k_near_of_length = 1e-3;    ///< the result contains a part if it is within this distance, relative to the length of the whole surface
 constexpr double k_near_of_part = 0.05;      ///< the same distance, relative to the length of the part; the larger of both applies
 constexpr double k_share_of_division = 0.1;  ///< a part is divided if at least this fraction of its samples lies on a second part of the result
-constexpr std::uint32_t k_none = 0xffffffffu;
 
 struct Part {
   std::vector<TriangleId> triangles;

@@ -7,8 +7,6 @@
 namespace sterna::check_parts {
 namespace {
 
-constexpr std::uint32_t k_no_node = NodeId::k_invalid;
-
 template <class Nodes>
 std::array<std::uint32_t, 3> sorted_key(const Nodes& nodes) {
   std::array<std::uint32_t, 3> key = {nodes[0].value(), nodes[1].value(), nodes[2].value()};
@@ -34,7 +32,7 @@ void walk_stack(const HybridMesh& mesh, const FaceSlots& slots, const FaceMatch&
   for (std::size_t n = 0; n < mesh.prisms.size(); ++n) {
     const Step step = step_into(mesh, match, cap);
     f(step);
-    if (step.beyond == k_no_slot) return;
+    if (step.beyond == k_none) return;
     const auto next = slots.prism_cap(step.beyond);
     if (!next) return;
     cap = *next;
@@ -85,7 +83,7 @@ void LayerLines::find_stacks(const HybridMesh& mesh, const FaceSlots& slots, con
     return;
   }
   std::sort(starts.begin(), starts.end());
-  std::vector<std::uint32_t> above(mesh.points.size(), k_no_node);
+  std::vector<std::uint32_t> above(mesh.points.size(), k_none);
   parallel_for(context, starts.size(), [&](std::size_t i) {
     walk_stack(mesh, slots, match, starts[i], [&](const Step& step) {
       for (std::size_t k = 0; k < 3; ++k) std::atomic_ref<std::uint32_t>(above[step.bottom[k].index()]).store(step.top[k].value(), std::memory_order_relaxed);
@@ -107,14 +105,14 @@ void LayerLines::find_stacks(const HybridMesh& mesh, const FaceSlots& slots, con
     reason_ = "the prisms on the walls do not form growth lines";
     return;
   }
-  std::vector<std::uint32_t> line_of(mesh.points.size(), k_no_node);
+  std::vector<std::uint32_t> line_of(mesh.points.size(), k_none);
   std::vector<std::uint32_t> base_nodes;
   for (const BoundaryTriangle& face : mesh.boundary_triangles) {
     if (has_layers[face.patch.index()] == 0) continue;
     std::array<std::uint32_t, 3> lines;
     for (std::size_t k = 0; k < 3; ++k) {
       std::uint32_t& line = line_of[face.nodes[k].index()];
-      if (line == k_no_node) {
+      if (line == k_none) {
         line = static_cast<std::uint32_t>(base_nodes.size());
         base_nodes.push_back(face.nodes[k].value());
       }
@@ -130,8 +128,7 @@ void LayerLines::find_stacks(const HybridMesh& mesh, const FaceSlots& slots, con
     const std::size_t start = nodes_.size();
     nodes_.push_back(base_node);
     // Stacks between two walls are cut at the second wall; no line is longer than all stacks together.
-    for (std::uint32_t node = above[base_node]; node != k_no_node && line_of[node] == k_no_node && nodes_.size() - start <= mesh.prisms.size();
-         node = above[node])
+    for (std::uint32_t node = above[base_node]; node != k_none && line_of[node] == k_none && nodes_.size() - start <= mesh.prisms.size(); node = above[node])
       nodes_.push_back(node);
     first_.push_back(nodes_.size());
   }

@@ -21,10 +21,9 @@ inline constexpr double k_kept_share = 0.5;
 /// A boundary triangle that may be opposite to a growth line.
 struct FacingTriangle {
   std::array<Point, 3> corners;               ///< right-hand normal into the fluid
-  std::array<std::uint32_t, 3> base_lines{};  ///< lines on its corners, or k_no_line
+  std::array<std::uint32_t, 3> base_lines{};  ///< lines on its corners, or k_none
   double requested = 0.0;  ///< m, largest requested height at the corners of the triangle; 0 if it carries no layer, and then its orientation is ignored
   double edge = 0.0;       ///< m, mean edge of the envelope above it
-  static constexpr std::uint32_t k_no_line = 0xffffffffu;
 };
 
 /// Properties of a growth line that determine its room.

@@ -57,7 +57,6 @@ void MirrorNormals::add_images(NodeId node, std::vector<Vec3>& normals) const {
 
 FacetsOfExplicitPrisms::FacetsOfExplicitPrisms(const HybridMesh& mesh, const LayerLines& lines) {
   if (!lines.are_columns() || mesh.prisms.empty()) return;
-  constexpr std::uint32_t k_none = ~0u;
   std::vector<std::uint32_t> line_at(mesh.points.size(), k_none);  // line of each base vertex
   for (std::uint32_t line = 0; line < lines.n_lines(); ++line)
     if (lines.n_layers(line) > 0) line_at[lines.node(line, 0).index()] = line;

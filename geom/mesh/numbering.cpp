@@ -2,7 +2,6 @@
 #include "geom/mesh/numbering.h"
 
 #include <algorithm>
-#include <limits>
 #include <numeric>
 #include <string>
 #include <utility>
@@ -12,19 +11,18 @@
 namespace sterna {
 namespace {
 
-constexpr std::uint32_t k_not_yet = std::numeric_limits<std::uint32_t>::max();
 constexpr int k_most_restarts = 8;  ///< limit for the search of a peripheral vertex, which usually ends after 2 to 4 restarts
 
 class LevelOrder {
  public:
-  explicit LevelOrder(const NeighbourGraph& graph) : graph_(graph), level_(graph.size(), k_not_yet) { order_.reserve(graph.size()); }
+  explicit LevelOrder(const NeighbourGraph& graph) : graph_(graph), level_(graph.size(), k_none) { order_.reserve(graph.size()); }
 
   std::vector<std::uint32_t> run() {
     std::vector<std::uint32_t> by_degree(graph_.size());
     std::iota(by_degree.begin(), by_degree.end(), 0u);
     std::ranges::stable_sort(by_degree, {}, [&](std::uint32_t v) { return degree(v); });
     for (const std::uint32_t start : by_degree)
-      if (level_[start] == k_not_yet) add_component(start);
+      if (level_[start] == k_none) add_component(start);
     std::ranges::reverse(order_);
     return std::move(order_);
   }
@@ -43,7 +41,7 @@ class LevelOrder {
       fresh.clear();
       for (std::uint64_t k = graph_.first[v]; k < graph_.first[v + 1]; ++k) {
         const std::uint32_t other = graph_.neighbours[k];
-        if (level_[other] != k_not_yet) continue;
+        if (level_[other] != k_none) continue;
         level_[other] = level_[v] + 1;
         fresh.push_back(other);
       }
@@ -54,7 +52,7 @@ class LevelOrder {
   }
 
   void forget_from(std::size_t begin) {
-    for (std::size_t i = begin; i < order_.size(); ++i) level_[order_[i]] = k_not_yet;
+    for (std::size_t i = begin; i < order_.size(); ++i) level_[order_[i]] = k_none;
     order_.resize(begin);
   }
 

@@ -11,7 +11,7 @@
 namespace sterna {
 namespace {
 
-/// A face of one side, its nodes ascending; the last node of a triangle is 0xffffffff.
+/// A face of one side, its nodes ascending; the last node of a triangle is k_none.
 struct SideFace {
   std::array<std::uint32_t, 4> nodes;
   std::uint32_t number;
@@ -118,7 +118,7 @@ class Matcher {
     for (const SideFace& face : first_.faces) {
       std::array<std::uint32_t, 4> image = face.nodes;
       for (std::uint32_t& n : image)
-        if (n != 0xffffffffu) n = partner_.at(n);
+        if (n != k_none) n = partner_.at(n);
       std::sort(image.begin(), image.end());
       const auto other = others.find(image);
       if (other != others.end()) match_.faces.push_back({face.number, other->second});
@@ -140,7 +140,7 @@ class Matcher {
 
 template <class Nodes>
 void add_face(const Nodes& nodes, std::uint32_t number, Side& side) {
-  SideFace face{{0xffffffffu, 0xffffffffu, 0xffffffffu, 0xffffffffu}, number};
+  SideFace face{{k_none, k_none, k_none, k_none}, number};
   std::size_t k = 0;
   for (const auto n : nodes) {
     face.nodes[k++] = n.value();

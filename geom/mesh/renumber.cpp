@@ -2,7 +2,6 @@
 // numbers of their nodes.
 #include <algorithm>
 #include <array>
-#include <limits>
 #include <span>
 #include <tuple>
 #include <utility>
@@ -13,8 +12,6 @@
 
 namespace sterna {
 namespace {
-
-constexpr std::uint32_t k_no_number = std::numeric_limits<std::uint32_t>::max();
 
 /// Calls f(nodes) for every explicit cell.
 template <class F>
@@ -116,11 +113,11 @@ struct LineVertices {
   std::vector<std::uint32_t> of_node;
   std::vector<std::uint32_t> free_nodes;
 
-  LineVertices(const HybridMesh& mesh, NodeLines given) : lines(std::move(given)), of_node(mesh.points.size(), k_no_number) {
+  LineVertices(const HybridMesh& mesh, NodeLines given) : lines(std::move(given)), of_node(mesh.points.size(), k_none) {
     for (std::uint32_t line = 0; line < lines.size(); ++line)
       for (const std::uint32_t node : lines.of(line)) of_node[node] = line;
     for (std::uint32_t node = 0; node < of_node.size(); ++node) {
-      if (of_node[node] != k_no_number) continue;
+      if (of_node[node] != k_none) continue;
       of_node[node] = static_cast<std::uint32_t>(lines.size() + free_nodes.size());
       free_nodes.push_back(node);
     }
@@ -154,9 +151,9 @@ void renumber_and_sort(Items& items, const std::vector<std::uint32_t>& new_numbe
   std::vector<Keyed> keys(items.size());
   for (std::size_t i = 0; i < items.size(); ++i) {
     std::array<std::uint32_t, 8> key;
-    key.fill(k_no_number);
+    key.fill(k_none);
     std::size_t n = 0;
-    std::uint32_t lowest = k_no_number;
+    std::uint32_t lowest = k_none;
     for (NodeId& node : nodes_of(items[i])) {
       node = NodeId(new_number[node.index()]);
       lowest = std::min(lowest, node.value());

@@ -129,12 +129,11 @@ Topology::Topology(const TriMesh& mesh, const RunContext& context) {
 }
 
 Components connected_components(const TriMesh& mesh, const Topology& topology) {
-  constexpr std::uint32_t k_unseen = 0xffffffffu;
   Components result;
-  result.component.resize(mesh.n_triangles(), k_unseen);
+  result.component.resize(mesh.n_triangles(), k_none);
   std::vector<TriangleId> front;
   for (const TriangleId seed : mesh.triangles.ids()) {
-    if (result.component[seed] != k_unseen) continue;
+    if (result.component[seed] != k_none) continue;
     result.component[seed] = result.count;
     front.assign(1, seed);
     while (!front.empty()) {
@@ -142,7 +141,7 @@ Components connected_components(const TriMesh& mesh, const Topology& topology) {
       front.pop_back();
       for (int corner = 0; corner < 3; ++corner) {
         const HalfedgeId twin = topology.twin(halfedge(t, corner));
-        if (!twin.is_valid() || result.component[triangle_of(twin)] != k_unseen) continue;
+        if (!twin.is_valid() || result.component[triangle_of(twin)] != k_none) continue;
         result.component[triangle_of(twin)] = result.count;
         front.push_back(triangle_of(twin));
       }

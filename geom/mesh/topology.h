@@ -18,6 +18,7 @@ class Topology {
   Topology(const TriMesh& mesh, const RunContext& context);
 
   HalfedgeId twin(HalfedgeId h) const { return twin_[h]; }  ///< invalid on the boundary
+  const Column<HalfedgeId, HalfedgeId>& twins() const { return twin_; }
   VertexId from(HalfedgeId h) const { return from_[h]; }
   VertexId to(HalfedgeId h) const { return from_[next(h)]; }
   bool is_boundary(HalfedgeId h) const { return !twin_[h].is_valid(); }

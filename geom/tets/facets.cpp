@@ -49,20 +49,20 @@ FacetIndex::FacetIndex(std::span<const Facet> facets, std::size_t n_points, cons
 
 std::uint32_t FacetIndex::find_edge(std::uint32_t a, std::uint32_t b) const {
   if (a > b) std::swap(a, b);
-  if (a + 1 >= first_edge_.size()) return k_missing;
+  if (a + 1 >= first_edge_.size()) return k_none;
   for (std::uint32_t i = first_edge_[a]; i < first_edge_[a + 1]; ++i)
     if (high_[i] == b) return i;
-  return k_missing;
+  return k_none;
 }
 
 std::uint32_t FacetIndex::find_facet(std::uint32_t a, std::uint32_t b, std::uint32_t c) const {
   if (a > b) std::swap(a, b);
   if (b > c) std::swap(b, c);
   if (a > b) std::swap(a, b);
-  if (a + 1 >= first_facet_.size()) return k_missing;
+  if (a + 1 >= first_facet_.size()) return k_none;
   for (std::uint32_t i = first_facet_[a]; i < first_facet_[a + 1]; ++i)
     if (at_point_[i].middle == b && at_point_[i].high == c) return at_point_[i].facet;
-  return k_missing;
+  return k_none;
 }
 
 }  // namespace sterna::tets

@@ -7,6 +7,7 @@
 #include <utility>
 #include <vector>
 
+#include "geom/base/ids.h"
 #include "geom/base/run_context.h"
 
 namespace sterna::tets {
@@ -17,17 +18,15 @@ using Edge = std::array<std::uint32_t, 2>;
 /// Edges and facets by number. Edges are in ascending order of their lower corner, then of the other.
 class FacetIndex {
  public:
-  static constexpr std::uint32_t k_missing = 0xffffffffu;
-
   /// \pre corner indices are below n_points; the three corners of a facet differ
   FacetIndex(std::span<const Facet> facets, std::size_t n_points, const RunContext& context);
 
   std::span<const Facet> facets() const { return facets_; }
   std::size_t n_edges() const { return high_.size(); }
   Edge edge(std::size_t i) const { return {low_[i], high_[i]}; }
-  /// Returns the number of the edge between two points (any points), or k_missing.
+  /// Returns the number of the edge between two points (any points), or k_none.
   std::uint32_t find_edge(std::uint32_t a, std::uint32_t b) const;
-  /// Returns the number of the facet with these corners in any order (any points), or k_missing.
+  /// Returns the number of the facet with these corners in any order (any points), or k_none.
   std::uint32_t find_facet(std::uint32_t a, std::uint32_t b, std::uint32_t c) const;
 
  private:

@@ -7,6 +7,7 @@
 #include <array>
 
 #include "geom/tets/insert.h"
+#include "geom/tets/ring_fill.h"
 #include "geom/tets/signs.h"
 
 namespace sterna::tets {
@@ -23,9 +24,6 @@ constexpr int k_most_effort = 400;
 /// Largest number of tetrahedra that are replaced by a new point.
 constexpr std::size_t k_most_cavity = 200;
 constexpr int k_most_walk = 2000;  ///< steps of the walk to a new point
-
-std::size_t corner_of(const Corners& v, std::uint32_t node) { return static_cast<std::size_t>(std::ranges::find(v, node) - v.begin()); }
-bool has(const Corners& v, std::uint32_t node) { return v[0] == node || v[1] == node || v[2] == node || v[3] == node; }
 
 }  // namespace
 
@@ -66,22 +64,10 @@ std::uint32_t Flips::tet_with_edge(std::uint32_t p, std::uint32_t q) {
 bool Flips::find_ring(std::uint32_t p, std::uint32_t q, Ring& ring) {
   const std::uint32_t first = tet_with_edge(p, q);
   if (first == k_none) return false;
-  // Select the order of the two other corners that makes p, q, r, s positive.
-  const Corners& v = mesh_.nodes[first];
-  const std::size_t ip = corner_of(v, p), iq = corner_of(v, q);
-  std::size_t ir = 0;
-  while (ir == ip || ir == iq) ++ir;
-  std::size_t is = 6 - ip - iq - ir;
-  const auto is_odd = [](std::array<std::size_t, 4> order) {
-    bool odd = false;
-    for (std::size_t i = 0; i < 4; ++i)
-      for (std::size_t j = 0; j < i; ++j) odd ^= order[j] > order[i];
-    return odd;
-  };
-  if (is_odd({ip, iq, ir, is})) std::swap(ir, is);
   ring.tets.clear();
   ring.vertices.clear();
-  std::uint32_t t = first, r = v[ir], s = v[is];
+  std::uint32_t t = first;
+  auto [r, s] = other_two(mesh_.nodes[first], p, q);
   for (;;) {
     ring.tets.push_back(t);
     ring.vertices.push_back(r);
@@ -192,67 +178,44 @@ bool Flips::flip_face(std::uint32_t face) {
   const auto& f = k_face[face % 4];
   const std::uint32_t a = mesh_.nodes[t][f[0]], b = mesh_.nodes[t][f[1]], c = mesh_.nodes[t][f[2]];
   const std::uint32_t top = mesh_.nodes[t][face % 4], bottom = mesh_.nodes[n / 4][n % 4];
-  if (required_.find_facet(a, b, c) != FacetIndex::k_missing) return false;
+  if (required_.find_facet(a, b, c) != k_none) return false;
   const std::array<Corners, 3> made = {{{a, b, bottom, top}, {b, c, bottom, top}, {c, a, bottom, top}}};
   if (!std::ranges::all_of(made, [&](const Corners& v) { return is_positive(v); })) return false;
   return replace(std::array{t, n / 4}, made);
 }
 
-/// Finds the best triangulation of the ring's polygon. Each triangle forms a tetrahedron with p and one with q. The lowest cost between any two corners follows
-/// from the costs of shorter pieces (Klincsek 1980; Shewchuk 2002 for rings).
+/// Finds the best triangulation of the ring's polygon. Each triangle forms a tetrahedron with p and one with q.
 bool Flips::fill_ring(std::uint32_t p, std::uint32_t q, const Ring& ring, const FlipCosts& costs) {
   const std::size_t n = ring.vertices.size();
-  if (n < 3) return false;
   constexpr double k_impossible = 1e9;
-  std::array<std::array<double, k_largest_ring>, k_largest_ring> least;
-  std::array<std::array<std::uint8_t, k_largest_ring>, k_largest_ring> middle;
   const auto r = [&](std::size_t i) { return ring.vertices[i]; };
   const auto length2 = [&](std::size_t i, std::size_t j) { return norm2(mesh_.points[r(i)] - mesh_.points[r(j)]); };
   double longest = 0.0;
   for (std::size_t i = 0; i < n; ++i) longest = std::max(longest, length2(i, (i + n / 2) % n));
   const double length_cost = longest > 0.0 ? 0.25 * k_length_cost / (static_cast<double>(n) * longest) : 0.0;  // no two corners are more than twice as far
                                                                                                                // apart
-  for (std::size_t length = 1; length < n; ++length) {
-    for (std::size_t i = 0; i + length < n; ++i) {
-      const std::size_t j = i + length;
-      if (length == 1) {
-        least[i][j] = 0;
-        continue;
-      }
-      least[i][j] = k_impossible;
-      for (std::size_t m = i + 1; m < j; ++m) {
-        const double parts = least[i][m] + least[m][j];
-        if (parts >= least[i][j]) continue;
-        if (!is_positive({r(i), r(m), r(j), q}) || !is_positive({r(i), r(j), r(m), p})) continue;
-        const double cost = parts + (costs.face ? costs.face(r(i), r(m), r(j)) : 0);
-        if (cost >= least[i][j]) continue;
-        least[i][j] = cost;
-        middle[i][j] = static_cast<std::uint8_t>(m);
-      }
-      if (length + 1 == n || least[i][j] >= k_impossible) continue;
-      least[i][j] += std::min(length_cost * length2(i, j), k_length_cost / static_cast<double>(n));
-      if (costs.edge) least[i][j] += costs.edge(r(i), r(j));
-      if (costs.face) least[i][j] += costs.face(r(i), r(j), p) + costs.face(r(i), r(j), q);
-    }
-  }
-  if (least[0][n - 1] >= k_impossible) return false;
+  const auto with_triangle = [&](std::size_t i, std::size_t j, std::size_t k, double sum, double bound) {
+    if (!is_positive({r(i), r(j), r(k), q}) || !is_positive({r(i), r(k), r(j), p})) return bound;
+    return sum + (costs.face ? costs.face(r(i), r(j), r(k)) : 0);
+  };
+  const auto with_diagonal = [&](std::size_t i, std::size_t k, double sum) {
+    sum += std::min(length_cost * length2(i, k), k_length_cost / static_cast<double>(n));
+    if (costs.edge) sum += costs.edge(r(i), r(k));
+    if (costs.face) sum += costs.face(r(i), r(k), p) + costs.face(r(i), r(k), q);
+    return sum;
+  };
+  RingFill<k_largest_ring> fill;
+  if (!fill.find(n, k_impossible, with_triangle, with_diagonal)) return false;
   std::vector<Corners> made;
-  std::vector<std::array<std::size_t, 2>> pieces = {{0, n - 1}};
-  while (!pieces.empty()) {
-    const auto [i, j] = pieces.back();
-    pieces.pop_back();
-    if (j - i < 2) continue;
-    const std::size_t m = middle[i][j];
-    made.push_back({r(i), r(m), r(j), q});
-    made.push_back({r(i), r(j), r(m), p});
-    pieces.push_back({i, m});
-    pieces.push_back({m, j});
-  }
+  fill.for_triangles([&](std::size_t i, std::size_t j, std::size_t k) {
+    made.push_back({r(i), r(j), r(k), q});
+    made.push_back({r(i), r(k), r(j), p});
+  });
   return replace(ring.tets, made);
 }
 
 bool Flips::remove_edge(std::uint32_t p, std::uint32_t q, int depth, const FlipCosts& costs) {
-  if (required_.find_edge(p, q) != FacetIndex::k_missing) return false;
+  if (required_.find_edge(p, q) != k_none) return false;
   const bool is_first = effort_ == 0;
   if (is_first) effort_ = k_most_effort;
   const std::size_t before = state();
@@ -304,7 +267,7 @@ std::uint32_t Flips::tet_around_lost_edge(std::span<const std::uint32_t> cavity,
     const Corners& v = mesh_.nodes[t];
     for (std::size_t i = 0; i < 4; ++i) {
       for (std::size_t j = 0; j < i; ++j) {
-        if (required_.find_edge(v[i], v[j]) == FacetIndex::k_missing) continue;
+        if (required_.find_edge(v[i], v[j]) == k_none) continue;
         const auto is_on = [&](const Facet& f) { return std::ranges::find(f, v[i]) != f.end() && std::ranges::find(f, v[j]) != f.end(); };
         if (std::ranges::any_of(hull, is_on)) continue;
         for (const std::uint32_t other : cavity.subspan(1))
@@ -350,7 +313,7 @@ bool Flips::add_point(const Vec3& position, std::uint32_t start) {
         if (n == k_none || is_in(cavity, n / 4) || is_in(barred, n / 4)) continue;
         const Corners& v = mesh_.nodes[cavity[i]];
         const auto& f = k_face[corner];
-        if (required_.find_facet(v[f[0]], v[f[1]], v[f[2]]) != FacetIndex::k_missing) continue;
+        if (required_.find_facet(v[f[0]], v[f[1]], v[f[2]]) != k_none) continue;
         if (perturbed_sphere_side(mesh_, mesh_.nodes[n / 4], point) > 0) cavity.push_back(n / 4);
       }
     }

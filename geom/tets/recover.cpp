@@ -106,7 +106,7 @@ std::vector<std::uint32_t> missing(std::size_t n, const TetMesh& mesh, const Mar
   parallel_for(context, mesh.nodes.size(), [&](std::size_t t) {
     if (!mesh.is_alive(static_cast<std::uint32_t>(t))) return;
     mark(mesh.nodes[t], [&](std::uint32_t i) {
-      if (i != FacetIndex::k_missing) std::atomic_ref(is_there[i]).store(1, std::memory_order_relaxed);
+      if (i != k_none) std::atomic_ref(is_there[i]).store(1, std::memory_order_relaxed);
     });
   });
   std::vector<std::uint32_t> list;

@@ -6,12 +6,12 @@
 #include <span>
 #include <vector>
 
+#include "geom/base/ids.h"
 #include "geom/base/run_context.h"
 #include "geom/base/vec3.h"
 
 namespace sterna::tets {
 
-inline constexpr std::uint32_t k_none = 0xffffffffu;
 inline constexpr std::uint32_t k_most_tets = 1u << 30;  ///< a face is 4 tet + corner in 32 bits
 
 using Corners = std::array<std::uint32_t, 4>;

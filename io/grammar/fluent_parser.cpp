@@ -246,7 +246,7 @@ class FluentParser {
       if (inner < 1 || outer < 0 || inner >= static_cast<std::int64_t>(NodeId::k_invalid) || outer >= static_cast<std::int64_t>(NodeId::k_invalid))
         fail("found the cells " + std::to_string(inner) + " and " + std::to_string(outer) + " of a face, expected one or two above 0");
       faces.owner.push_back(static_cast<std::uint32_t>(inner - 1));
-      faces.neighbour.push_back(outer == 0 ? FaceBasedMesh::k_none : static_cast<std::uint32_t>(outer - 1));
+      faces.neighbour.push_back(outer == 0 ? k_none : static_cast<std::uint32_t>(outer - 1));
       faces.first.push_back(faces.nodes.size());
       if (outer == 0 && header.type == k_interior) fail("found an interior face with one cell");
     }
@@ -278,7 +278,7 @@ class FluentParser {
     if (n_cells_ > faces.n_faces()) fail("found " + std::to_string(n_cells_) + " cells, too many for " + std::to_string(faces.n_faces()) + " faces");
     faces.n_cells = n_cells_;
     for (std::size_t f = 0; f < faces.n_faces(); ++f)
-      if (faces.owner[f] >= n_cells_ || (faces.neighbour[f] != FaceBasedMesh::k_none && faces.neighbour[f] >= n_cells_))
+      if (faces.owner[f] >= n_cells_ || (faces.neighbour[f] != k_none && faces.neighbour[f] >= n_cells_))
         fail("face " + std::to_string(f + 1) + " has the cells " + std::to_string(faces.owner[f] + 1ull) + " and " + std::to_string(faces.neighbour[f] + 1ull) +
              ", there are " + std::to_string(n_cells_));
     faces.patch.resize(faces.n_faces());
@@ -293,7 +293,7 @@ class FluentParser {
     const PatchId patch = find_or_add_patch(content_.patches, name);
     content_.patches[patch].kind = kind_of_fluent_zone(zone.type, name);
     for (std::size_t f = zone.first_face; f < zone.first_face + zone.n_faces; ++f) {
-      if (faces.neighbour[f] == FaceBasedMesh::k_none) faces.patch[f] = patch;
+      if (faces.neighbour[f] == k_none) faces.patch[f] = patch;
       else ++content_.n_inner_walls;
     }
   }

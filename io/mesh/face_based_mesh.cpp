@@ -125,14 +125,14 @@ FacesOfCells faces_of_cells(const FaceBasedMesh& faces) {
   const auto count = [&](std::uint32_t cell) { ++of.first[cell + 1]; };
   for (std::size_t f = 0; f < faces.n_faces(); ++f) {
     count(faces.owner[f]);
-    if (faces.neighbour[f] != FaceBasedMesh::k_none) count(faces.neighbour[f]);
+    if (faces.neighbour[f] != k_none) count(faces.neighbour[f]);
   }
   for (std::size_t c = 0; c < faces.n_cells; ++c) of.first[c + 1] += of.first[c];
   std::vector<std::uint64_t> next(of.first.begin(), of.first.end() - 1);
   of.entries.resize(of.first.back());
   for (std::size_t f = 0; f < faces.n_faces(); ++f) {
     of.entries[next[faces.owner[f]]++] = 2 * f;
-    if (faces.neighbour[f] != FaceBasedMesh::k_none) of.entries[next[faces.neighbour[f]]++] = 2 * f + 1;
+    if (faces.neighbour[f] != k_none) of.entries[next[faces.neighbour[f]]++] = 2 * f + 1;
   }
   return of;
 }
@@ -160,7 +160,7 @@ void append(std::vector<T>& to, const std::vector<T>& from) {
 
 void add_boundary(const FaceBasedMesh& faces, HybridMesh& mesh) {
   for (std::size_t f = 0; f < faces.n_faces(); ++f) {
-    if (faces.neighbour[f] != FaceBasedMesh::k_none) continue;
+    if (faces.neighbour[f] != k_none) continue;
     const std::span<const std::uint32_t> nodes(faces.nodes.data() + faces.first[f], faces.first[f + 1] - faces.first[f]);
     if (nodes.size() == 3) mesh.boundary_triangles.push_back({ids<3>(nodes), faces.patch[f]});
     else mesh.boundary_quads.push_back({ids<4>(nodes), faces.patch[f]});

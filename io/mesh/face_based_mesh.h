@@ -12,7 +12,6 @@ namespace sterna::io {
 
 /// Faces with their cells. Internal faces have a neighbour, boundary faces have a patch.
 struct FaceBasedMesh {
-  static constexpr std::uint32_t k_none = NodeId::k_invalid;
   std::vector<std::uint32_t> nodes;      ///< nodes of all faces, concatenated
   std::vector<std::uint64_t> first;      ///< start of each face in `nodes`, and the end; the first value is 0
   std::vector<std::uint32_t> owner;      ///< the face's right-hand normal points out of it

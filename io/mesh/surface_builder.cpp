@@ -1,18 +1,12 @@
 #include "io/mesh/surface_builder.h"
 
 #include <algorithm>
-#include <limits>
 
 #include "geom/base/error.h"
+#include "geom/base/ids.h"
 #include "io/mesh/surface_polygon.h"
 
 namespace sterna::io {
-namespace {
-
-constexpr std::uint32_t k_unused = std::numeric_limits<std::uint32_t>::max();
-
-}  // namespace
-
 std::string numbered_patch(std::int64_t number) { return "patch_" + std::to_string(number); }
 
 void SurfaceBuilder::reserve_polygons(std::size_t n) {
@@ -21,7 +15,7 @@ void SurfaceBuilder::reserve_polygons(std::size_t n) {
 }
 
 std::uint32_t SurfaceBuilder::add_point(const Vec3& p) {
-  if (soup_.points.size() >= k_unused)
+  if (soup_.points.size() >= k_none)
     throw Error({.code = ErrorCode::overflow, .attempted = "reading " + soup_.source, .problem = "more than 4294967294 points"});
   soup_.points.push_back(p);
   has_not_finite_ = has_not_finite_ || !is_finite(p);
@@ -138,12 +132,12 @@ void SurfaceBuilder::split_polygons() {
 }
 
 void SurfaceBuilder::compact_points() {
-  std::vector<std::uint32_t> old2new(soup_.points.size(), k_unused);
+  std::vector<std::uint32_t> old2new(soup_.points.size(), k_none);
   for (const auto& triangle : soup_.triangles)
     for (const std::uint32_t corner : triangle) old2new[corner] = 0;
   std::vector<Vec3> points;
   for (std::size_t i = 0; i < old2new.size(); ++i) {
-    if (old2new[i] == k_unused) continue;
+    if (old2new[i] == k_none) continue;
     old2new[i] = static_cast<std::uint32_t>(points.size());
     points.push_back(soup_.points[i]);
   }
@@ -153,11 +147,11 @@ void SurfaceBuilder::compact_points() {
 }
 
 void SurfaceBuilder::compact_patches() {
-  std::vector<std::uint32_t> old2new(soup_.patch_names.size(), k_unused);
+  std::vector<std::uint32_t> old2new(soup_.patch_names.size(), k_none);
   for (const std::uint32_t patch : soup_.patch) old2new[patch] = 0;
   std::vector<std::string> names;
   for (std::size_t i = 0; i < old2new.size(); ++i) {
-    if (old2new[i] == k_unused) continue;
+    if (old2new[i] == k_none) continue;
     old2new[i] = static_cast<std::uint32_t>(names.size());
     names.push_back(std::move(soup_.patch_names[i]));
   }

@@ -224,7 +224,7 @@ HybridMesh read_volume_foam(const std::filesystem::path& path, const RunContext&
   FoamFile neighbours(folder / "neighbour", "labelList", context);
   faces.neighbour = neighbours.labels("the cell of a face", n_faces, n_faces);
   const std::uint64_t n_internal = faces.neighbour.size();
-  faces.neighbour.resize(n_faces, FaceBasedMesh::k_none);
+  faces.neighbour.resize(n_faces, k_none);
   faces.patch.resize(n_faces);
   for (const std::uint32_t cell : faces.owner) faces.n_cells = std::max<std::uint64_t>(faces.n_cells, cell + 1ull);
   for (std::uint64_t f = 0; f < n_internal; ++f) faces.n_cells = std::max<std::uint64_t>(faces.n_cells, faces.neighbour[f] + 1ull);

@@ -155,11 +155,11 @@ VtuArray points_array(const HybridMesh& mesh) {
 
 /// Returns the qualities of all cells in the file.
 std::vector<CellQuality> qualities_of(const HybridMesh& mesh, const RunContext& context) {
-  constexpr double k_none = std::numeric_limits<double>::quiet_NaN();
+  constexpr double k_nan = std::numeric_limits<double>::quiet_NaN();
   constexpr std::size_t k_chunk = 4096;
   const CellSections sections(mesh);
   const FileCells cells(mesh);
-  std::vector<CellQuality> qualities(cells.n_cells(), {k_none, k_none, k_none, k_none});
+  std::vector<CellQuality> qualities(cells.n_cells(), {k_nan, k_nan, k_nan, k_nan});
   for (std::size_t r = 0; r < k_kinds_in_file.size(); ++r) {
     const CellKind kind = k_kinds_in_file[r];
     parallel_chunks(context, sections.count(kind), k_chunk, [&](std::size_t begin, std::size_t end) {

@@ -132,14 +132,14 @@ std::string PageMaker::patches_json() const {
 std::string PageMaker::surface_json(std::size_t most, PageArrays& arrays) const {
   const ThinSurface thin = thin_surface(points_, triangles_.triangles, most);
   const bool is_thinned = thin.triangles.size() < triangles_.triangles.size();
-  std::vector<std::uint32_t> number(points_.size(), std::numeric_limits<std::uint32_t>::max());
+  std::vector<std::uint32_t> number(points_.size(), k_none);
   std::vector<float> points;
   std::vector<std::uint32_t> corners;
   std::vector<std::uint16_t> patch;
   std::vector<std::uint8_t> edges;
   for (std::size_t t = 0; t < thin.triangles.size(); ++t) {
     for (const std::uint32_t i : thin.triangles[t]) {
-      if (number[i] == std::numeric_limits<std::uint32_t>::max()) {
+      if (number[i] == k_none) {
         number[i] = static_cast<std::uint32_t>(points.size() / 3);
         const Vec3 p = points_[i] - origin_;
         points.insert(points.end(), {static_cast<float>(p.x), static_cast<float>(p.y), static_cast<float>(p.z)});
@@ -203,8 +203,8 @@ std::string page_cut_json(const CutLocation& location, const MeshCut& cut, std::
   json["points"] = location_json(arrays.add(std::span<const float>(points)));
   json["first"] = location_json(arrays.add(std::span<const std::uint32_t>(first)));
   json["kind"] = location_json(arrays.add(std::span<const std::uint8_t>(kind)));
-  constexpr double k_none = std::numeric_limits<double>::quiet_NaN();
-  constexpr GateLimits k_no_limits{k_none, k_none, k_none, 1.0};
+  constexpr double k_nan = std::numeric_limits<double>::quiet_NaN();
+  constexpr GateLimits k_no_limits{k_nan, k_nan, k_nan, 1.0};
   constexpr double k_degrees = 180.0 / std::numbers::pi;
   GateLimits dihedral = info_of(Measure::min_dihedral).limits;
   for (double* limit : {&dihedral.hard, &dihedral.target, &dihedral.usual}) *limit *= k_degrees;

@@ -12,7 +12,7 @@ namespace sterna::scripting {
 namespace {
 
 constexpr std::string_view k_example = "gates = { orthogonality = { hard = 3*deg, target = 15*deg }, face_weight = false }";
-constexpr double k_none = std::numeric_limits<double>::quiet_NaN();
+constexpr double k_no_limit = std::numeric_limits<double>::quiet_NaN();
 
 std::vector<std::string> measure_names() {
   std::vector<std::string> names;
@@ -81,7 +81,7 @@ void read_limits(const MeasureInfo& info, const ScriptTable& table, const std::s
       const std::string nearest = nearest_name(name, limit_names());
       reader.add_problem(key + "." + name + ": unknown" + (nearest.empty() ? "; known are hard, target, usual, share" : ", did you mean " + nearest + "?"));
     } else if (off && !*off && name != "share") {
-      *limit = k_none;
+      *limit = k_no_limit;
     } else if (number || whole) {
       *limit = number ? *number : static_cast<double>(*whole);
     } else {
@@ -107,7 +107,7 @@ bool read_gate_limits(TableReader& reader, GateTable& limits) {
     const auto* off = std::get_if<bool>(&entry);
     const auto* given = std::get_if<std::shared_ptr<const ScriptTable>>(&entry);
     if (!info) reader.add_problem(unknown_measure(name));
-    else if (off && !*off) limits[info->measure] = {k_none, k_none, k_none, 1.0};
+    else if (off && !*off) limits[info->measure] = {k_no_limit, k_no_limit, k_no_limit, 1.0};
     else if (given) read_limits(*info, **given, "gates." + name, reader, limits);
     else reader.add_problem("gates." + name + ": expected a table such as { hard = 1, target = 2 } or false, not " + std::string(type_text(entry)));
   }
@@ -126,7 +126,7 @@ void set_gate_limits(std::string_view text, GateTable& limits) {
   std::string_view rest = text.substr(colon + 1);
   GateLimits changed = limits[info->measure];
   if (rest == "none") {
-    limits[info->measure] = {k_none, k_none, k_none, 1.0};
+    limits[info->measure] = {k_no_limit, k_no_limit, k_no_limit, 1.0};
     return;
   }
   while (!rest.empty()) {
@@ -138,7 +138,7 @@ void set_gate_limits(std::string_view text, GateTable& limits) {
     if (!limit || equals == std::string_view::npos) refuse("\"" + std::string(entry) + "\" is not one of hard=, target=, usual=, share=");
     const std::string_view number = entry.substr(equals + 1);
     try {
-      *limit = number == "none" && key != "share" ? k_none : typed_number(number, info->is_angle && key != "share" ? Unit::radian : Unit::none);
+      *limit = number == "none" && key != "share" ? k_no_limit : typed_number(number, info->is_angle && key != "share" ? Unit::radian : Unit::none);
     } catch (const Error& error) {
       refuse(std::string(key) + ": " + error.info().problem, error.info().hint);
     }

@@ -58,31 +58,35 @@ Remesher::Remesher(const Reference& reference, const RemeshSizes& sizes, const R
     }
   }
   if (!is_border_.empty()) flat_ = k_border_flat * body_length(*r_.mesh);
-  for (WorkVertex& v : mesh_.vertices)
-    if (v.kind == VertexKind::face && v.out != k_none) v.normal = r_.normal(v.location);
+  for (const VertexId i : mesh_.vertices.ids())
+    if (WorkVertex& v = mesh_.vertices[i]; v.kind == VertexKind::face && mesh_.outgoing[i].is_valid()) v.normal = r_.normal(v.location);
   refresh_sizes();
+  update_all();
+}
+
+void Remesher::update_all() {
   quality_.resize(mesh_.triangles.size());
-  parallel_for(context_, quality_.size(), [&](std::size_t t) { update(static_cast<std::uint32_t>(t)); });
+  parallel_for(context_, quality_.size(), [&](std::size_t t) { update(TriangleId(t)); });
 }
 
 void Remesher::renumber() {
   mesh_.renumber();
-  quality_.resize(mesh_.triangles.size());
-  parallel_for(context_, quality_.size(), [&](std::size_t t) { update(static_cast<std::uint32_t>(t)); });
+  update_all();
 }
 
-double Remesher::target_length(std::uint32_t h) const {
+double Remesher::target_length(HalfedgeId h) const {
   const double a = mesh_.vertices[mesh_.from(h)].size, b = mesh_.vertices[mesh_.to(h)].size;
   return 2.0 * a * b / (a + b);
 }
 
-double Remesher::length_ratio(std::uint32_t h) const { return distance(mesh_.at(mesh_.from(h)), mesh_.at(mesh_.to(h))) / target_length(h); }
+double Remesher::length_ratio(HalfedgeId h) const { return distance(mesh_.at(mesh_.from(h)), mesh_.at(mesh_.to(h))) / target_length(h); }
 
 void Remesher::resize(WorkVertex& v, TriangleId t) const { v.size = sizes_(v.point, t); }
 
 void Remesher::refresh_sizes() {
-  for (WorkVertex& v : mesh_.vertices) {
-    if (v.out == k_none) continue;
+  for (const VertexId i : mesh_.vertices.ids()) {
+    if (!mesh_.outgoing[i].is_valid()) continue;
+    WorkVertex& v = mesh_.vertices[i];
     if (v.kind == VertexKind::face) resize(v, v.location.triangle);
     else if (v.kind == VertexKind::line) resize(v, triangle_of(r_.lines[static_cast<std::size_t>(v.line)].halfedges[r_.line_location(v.line, v.s).segment]));
     else resize(v, triangle_of(r_.topology.outgoing(v.corner).front()));
@@ -92,7 +96,7 @@ void Remesher::refresh_sizes() {
 /// Returns the reference's normal at a vertex of a triangle, in the smooth piece of `hint` and in the direction of the point `towards`. If both sides of a line
 /// belong to that piece (a sharp trailing edge whose piece continues around the nose), the direction alone hardly distinguishes them. Then `seen`, a normal
 /// elsewhere on the triangle, selects the side; zero: not known.
-Vec3 Remesher::normal_at(std::uint32_t number, TriangleId hint, const Point& towards, const Vec3& seen) const {
+Vec3 Remesher::normal_at(VertexId number, TriangleId hint, const Point& towards, const Vec3& seen) const {
   const WorkVertex& v = mesh_.vertices[number];
   if (v.kind == VertexKind::face) return v.normal;
   const std::uint32_t region = r_.region[hint];
@@ -131,7 +135,7 @@ Vec3 Remesher::normal_at(std::uint32_t number, TriangleId hint, const Point& tow
   return best.is_valid() ? r_.normals[best] : r_.triangle_normals[hint];
 }
 
-bool Remesher::is_at_border(std::uint32_t number) const {
+bool Remesher::is_at_border(VertexId number) const {
   const WorkVertex& v = mesh_.vertices[number];
   if (v.kind == VertexKind::line) return is_border_[static_cast<std::size_t>(v.line)] != 0;
   if (v.kind != VertexKind::corner) return false;
@@ -140,7 +144,7 @@ bool Remesher::is_at_border(std::uint32_t number) const {
 }
 
 /// Returns true for triangles in the plane of an open boundary. In a half model such a triangle would be a wall there, coincident with its mirror image.
-bool Remesher::lies_in_border(const std::array<std::uint32_t, 3>& v, const std::array<Point, 3>& p) const {
+bool Remesher::lies_in_border(const TriangleVertices& v, const std::array<Point, 3>& p) const {
   if (is_border_.empty()) return false;
   bool is_flat = false;
   for (std::size_t axis = 0; axis < 3; ++axis) {
@@ -151,66 +155,63 @@ bool Remesher::lies_in_border(const std::array<std::uint32_t, 3>& v, const std::
 }
 
 /// Returns the mean ratio. Returns k_folded for a triangle that is inverted against the reference, or that lies in the plane of an open boundary.
-double Remesher::quality_of(const std::array<std::uint32_t, 3>& v, const std::array<Point, 3>& p, TriangleId hint) const {
+double Remesher::quality_of(const TriangleVertices& v, TriangleId hint) const {
+  const std::array<Point, 3> p = {mesh_.at(v[0]), mesh_.at(v[1]), mesh_.at(v[2])};
   const Vec3 n = cross(p[1] - p[0], p[2] - p[0]);
   const double area = norm(n);
   const Point middle = (p[0] + p[1] + p[2]) / 3.0;
   if (lies_in_border(v, p)) return k_folded;
   Vec3 seen;
-  for (const std::uint32_t k : v)
+  for (const VertexId k : v)
     if (mesh_.vertices[k].kind == VertexKind::face) seen = mesh_.vertices[k].normal;
-  for (const std::uint32_t k : v)
+  for (const VertexId k : v)
     if (!(dot(n, normal_at(k, hint, middle, seen)) > k_fold_cosine * area)) return k_folded;
   return 0.5 * k_mean_ratio * area / (norm2(p[1] - p[0]) + norm2(p[2] - p[1]) + norm2(p[0] - p[2]));
 }
 
-double Remesher::quality_now(std::uint32_t t) const {
-  const auto& v = mesh_.triangles[t];
-  return quality_of(v, {mesh_.at(v[0]), mesh_.at(v[1]), mesh_.at(v[2])}, mesh_.hint[t]);
-}
+double Remesher::quality_now(TriangleId t) const { return quality_of(mesh_.triangles[t], mesh_.hint[t]); }
 
 double Remesher::turned_share(double angle) const {
   const double cosine = std::cos(angle);
   double turned = 0.0, all = 0.0;
-  for (std::uint32_t t = 0; t < mesh_.triangles.size(); ++t) {
-    if (mesh_.is_gone(t)) continue;
+  for (const TriangleId t : mesh_.triangles.ids()) {
+    if (mesh_.is_removed(t)) continue;
     const auto& v = mesh_.triangles[t];
     const Vec3 n = cross(mesh_.at(v[1]) - mesh_.at(v[0]), mesh_.at(v[2]) - mesh_.at(v[0]));
     const Point middle = (mesh_.at(v[0]) + mesh_.at(v[1]) + mesh_.at(v[2])) / 3.0;
     const double area = norm(n);
     all += area;
     Vec3 seen;
-    for (const std::uint32_t k : v)
+    for (const VertexId k : v)
       if (mesh_.vertices[k].kind == VertexKind::face) seen = mesh_.vertices[k].normal;
-    const bool is_turned =
-        std::ranges::any_of(v, [&](std::uint32_t k) { return dot(n, normalized(normal_at(k, mesh_.hint[t], middle, seen))) < cosine * area; });
+    const bool is_turned = std::ranges::any_of(v, [&](VertexId k) { return dot(n, normalized(normal_at(k, mesh_.hint[t], middle, seen))) < cosine * area; });
     if (is_turned) turned += area;
   }
   return all > 0.0 ? turned / all : 0.0;
 }
 
-double Remesher::fan_quality(std::uint32_t v) const {
+double Remesher::fan_quality(VertexId v) const {
   double worst = 1.0;
-  mesh_.for_out(v, [&](std::uint32_t h) { worst = std::min(worst, quality(h / 3)); });
+  mesh_.for_out(v, [&](HalfedgeId h) { worst = std::min(worst, quality(triangle_of(h))); });
   return worst;
 }
 
 /// Recomputes the quality. If it is below `floor`, any value below `floor` may be returned.
-double Remesher::fan_quality_now(std::uint32_t v, double floor) const {
+double Remesher::fan_quality_now(VertexId v, double floor) const {
   double worst = 1.0;
-  mesh_.for_out(v, [&](std::uint32_t h) {
-    if (worst >= floor) worst = std::min(worst, quality_now(h / 3));
+  mesh_.for_out(v, [&](HalfedgeId h) {
+    if (worst >= floor) worst = std::min(worst, quality_now(triangle_of(h)));
   });
   return worst;
 }
 
-std::uint32_t Remesher::valence(std::uint32_t v) const {
-  std::uint32_t n = 0;
-  mesh_.for_ring(v, [&](std::uint32_t) { ++n; });
+int Remesher::valence(VertexId v) const {
+  int n = 0;
+  mesh_.for_ring(v, [&](VertexId) { ++n; });
   return n;
 }
 
-double Remesher::s_on_line(std::uint32_t v, std::int32_t line) const {
+double Remesher::s_on_line(VertexId v, std::int32_t line) const {
   const WorkVertex& w = mesh_.vertices[v];
   if (w.kind == VertexKind::line) return w.s;
   const FeatureLine& l = r_.lines[static_cast<std::size_t>(line)];
@@ -233,17 +234,17 @@ void Remesher::put_on_line(WorkVertex& v, std::int32_t line, double s) const {
   resize(v, triangle_of(r_.lines[static_cast<std::size_t>(line)].halfedges[r_.line_location(line, s).segment]));
 }
 
-WorkVertex Remesher::middle(std::uint32_t h) const {
-  const std::uint32_t a = mesh_.from(h), b = mesh_.to(h);
+WorkVertex Remesher::middle(HalfedgeId h) const {
+  const VertexId a = mesh_.from(h), b = mesh_.to(h);
   WorkVertex v;
-  if (mesh_.line[h] != k_no_line) {
-    put_on_line(v, mesh_.line[h], 0.5 * (s_on_line(a, mesh_.line[h]) + s_on_line(b, mesh_.line[h])));
+  if (mesh_.is_line(h)) {
+    put_on_line(v, mesh_.line(h), 0.5 * (s_on_line(a, mesh_.line(h)) + s_on_line(b, mesh_.line(h))));
     return v;
   }
   const Point p = 0.5 * (mesh_.at(a) + mesh_.at(b));
-  TriangleId start = mesh_.hint[h / 3];
+  TriangleId start = mesh_.hint[triangle_of(h)];
   double least = norm2(nearest_on_triangle(p, corners(*r_.mesh, start)) - p);
-  for (const std::uint32_t k : {a, b}) {
+  for (const VertexId k : {a, b}) {
     if (mesh_.vertices[k].kind != VertexKind::face) continue;
     const TriangleId t = mesh_.vertices[k].location.triangle;
     if (const double d = norm2(nearest_on_triangle(p, corners(*r_.mesh, t)) - p); d < least) {
@@ -259,7 +260,7 @@ WorkVertex Remesher::middle(std::uint32_t h) const {
 
 /// Applies to an edge between two vertices of one line that is not part of the line. Returns true if its middle is not on the line, so that no triangle lies
 /// flat on the line.
-bool Remesher::is_split_good(std::uint32_t h, std::uint32_t m) const {
+bool Remesher::is_split_good(HalfedgeId h, VertexId m) const {
   const WorkVertex &first = mesh_.vertices[mesh_.from(h)], &last = mesh_.vertices[mesh_.to(h)];
   const auto is_end = [&](const WorkVertex& corner, std::int32_t line) {
     const auto& v = r_.lines[static_cast<std::size_t>(line)].vertices;
@@ -267,26 +268,26 @@ bool Remesher::is_split_good(std::uint32_t h, std::uint32_t m) const {
   };
   const bool is_one_line = (first.kind == VertexKind::line && last.kind == VertexKind::line && first.line == last.line) ||
                            (first.kind == VertexKind::line && is_end(last, first.line)) || (last.kind == VertexKind::line && is_end(first, last.line));
-  if (mesh_.line[h] != k_no_line || !is_one_line) return true;
-  for (const std::uint32_t e : {h, mesh_.twin[h]}) {
-    if (e == k_none || quality(e / 3) <= 0.0) continue;
-    const std::uint32_t a = mesh_.from(e), b = mesh_.to(e), c = mesh_.apex(e);
-    for (const std::array<std::uint32_t, 3>& v : {std::array{a, m, c}, std::array{m, b, c}})
-      if (!(quality_of(v, {mesh_.at(v[0]), mesh_.at(v[1]), mesh_.at(v[2])}, mesh_.hint[e / 3]) > k_least_after_split * quality(e / 3))) return false;
+  if (mesh_.is_line(h) || !is_one_line) return true;
+  for (const HalfedgeId e : {h, mesh_.twins[h]}) {
+    if (!e.is_valid() || quality(triangle_of(e)) <= 0.0) continue;
+    const VertexId a = mesh_.from(e), b = mesh_.to(e), c = mesh_.apex(e);
+    for (const TriangleVertices& v : {TriangleVertices{a, m, c}, TriangleVertices{m, b, c}})
+      if (!(quality_of(v, mesh_.hint[triangle_of(e)]) > k_least_after_split * quality(triangle_of(e)))) return false;
   }
   return true;
 }
 
 std::int64_t Remesher::n_triangles() const {
-  return std::ranges::count_if(mesh_.triangles, [](const auto& t) { return t[0] != k_none; });
+  return std::ranges::count_if(mesh_.triangles, [](const TriangleVertices& v) { return v[0].is_valid(); });
 }
 
 std::int64_t Remesher::split_long(double most, std::int64_t max_triangles) {
   std::int64_t n = 0, n_triangles_now = n_triangles();
   for (int round = 0; round < k_split_rounds; ++round) {
-    std::vector<std::pair<double, std::uint32_t>> found;
-    for (std::uint32_t h = 0; h < mesh_.twin.size(); ++h) {
-      if (mesh_.is_gone(h / 3) || (mesh_.twin[h] != k_none && mesh_.twin[h] < h) || is_locked(h)) continue;
+    std::vector<std::pair<double, HalfedgeId>> found;
+    for (const HalfedgeId h : mesh_.twins.ids()) {
+      if (!mesh_.is_first(h) || is_locked(h)) continue;
       if (const double ratio = length_ratio(h); ratio > most) found.emplace_back(-ratio, h);
     }
     if (found.empty()) break;
@@ -300,14 +301,13 @@ std::int64_t Remesher::split_long(double most, std::int64_t max_triangles) {
       const double length = distance(mesh_.at(mesh_.from(h)), mesh_.at(mesh_.to(h)));
       const auto [near, far] = std::minmax({distance(v.point, mesh_.at(mesh_.from(h))), distance(v.point, mesh_.at(mesh_.to(h)))});
       if (near < k_least_half * length || far > k_most_half * length) continue;
-      const auto m = static_cast<std::uint32_t>(mesh_.vertices.size());
-      mesh_.vertices.push_back(v);
+      const VertexId m = mesh_.vertices.push_back(v);
       if (!is_split_good(h, m)) {
-        mesh_.vertices.pop_back();
+        mesh_.vertices.raw().pop_back();
         continue;
       }
-      n_triangles_now += mesh_.twin[h] == k_none ? 1 : 2;
-      mesh_.split(h, m);
+      n_triangles_now += mesh_.twins[h].is_valid() ? 2 : 1;
+      mesh_.split(h);
       quality_.resize(mesh_.triangles.size());
       update_fan(m);
       ++done;
@@ -321,9 +321,9 @@ std::int64_t Remesher::split_long(double most, std::int64_t max_triangles) {
 }
 
 std::pair<Point, double> Remesher::shortest_to_halve(double most) const {
-  std::pair<Point, double> found{mesh_.at(0), 0.0};
-  for (std::uint32_t h = 0; h < mesh_.twin.size(); ++h) {
-    if (mesh_.is_gone(h / 3) || (mesh_.twin[h] != k_none && mesh_.twin[h] < h) || is_locked(h) || !(length_ratio(h) > most)) continue;
+  std::pair<Point, double> found{mesh_.at(VertexId(0)), 0.0};
+  for (const HalfedgeId h : mesh_.twins.ids()) {
+    if (!mesh_.is_first(h) || is_locked(h) || !(length_ratio(h) > most)) continue;
     const Point &a = mesh_.at(mesh_.from(h)), &b = mesh_.at(mesh_.to(h));
     if (const double length = distance(a, b); found.second == 0.0 || length < found.second) found = {0.5 * (a + b), length};
   }
@@ -333,51 +333,53 @@ std::pair<Point, double> Remesher::shortest_to_halve(double most) const {
 // ---- collapses ---------------------------------------------------------------------------------------------------------------------------
 
 /// Returns true if the start vertex of h may be merged into its end vertex. Tests the kinds of the vertices, the lines, and the link condition.
-bool Remesher::is_collapse_legal(std::uint32_t h) const {
-  const std::uint32_t v = mesh_.from(h), u = mesh_.to(h), o = mesh_.twin[h];
+bool Remesher::is_collapse_legal(HalfedgeId h) const {
+  const VertexId v = mesh_.from(h), u = mesh_.to(h);
+  const HalfedgeId o = mesh_.twins[h];
   const WorkVertex& gone = mesh_.vertices[v];
   if (gone.kind == VertexKind::corner || gone.is_fixed) return false;
-  if (gone.kind == VertexKind::line && mesh_.line[h] != gone.line) return false;
+  if (gone.kind == VertexKind::line && mesh_.line(h) != gone.line) return false;
   // On an open boundary one triangle is removed. Each removed triangle must have neighbours at its two other edges, and at each apex at least two triangles
   // remain.
-  for (const std::uint32_t e : {h, o}) {
-    if (e == k_none) continue;
-    const std::uint32_t p = WorkMesh::next(e), q = WorkMesh::prev(e);
+  for (const HalfedgeId e : {h, o}) {
+    if (!e.is_valid()) continue;
+    const HalfedgeId p = next(e), q = previous(e);
     // The border of rows may lose a triangle. Its edge passes to the triangle behind.
-    const bool is_behind_front = (mesh_.twin[p] == k_none && is_front(p)) != (mesh_.twin[q] == k_none && is_front(q));
-    if (!is_behind_front && (mesh_.twin[p] == k_none || mesh_.twin[q] == k_none)) return false;
-    if (mesh_.line[p] != k_no_line && mesh_.line[q] != k_no_line) return false;
+    const bool is_behind_front = (!mesh_.twins[p].is_valid() && is_front(p)) != (!mesh_.twins[q].is_valid() && is_front(q));
+    if (!is_behind_front && (!mesh_.twins[p].is_valid() || !mesh_.twins[q].is_valid())) return false;
+    if (mesh_.is_line(p) && mesh_.is_line(q)) return false;
     int n = 0;
     bool has_border = false;
-    mesh_.for_out(mesh_.apex(e), [&](std::uint32_t x) {
+    mesh_.for_out(mesh_.apex(e), [&](HalfedgeId x) {
       ++n;
-      has_border = has_border || mesh_.twin[x] == k_none;
+      has_border = has_border || !mesh_.twins[x].is_valid();
     });
     if (n <= (has_border ? 2 : 3)) return false;
   }
-  std::array<std::uint32_t, 64> ring;
+  std::array<VertexId, 64> ring;
   std::size_t n_ring = 0;
   bool is_too_many = false;
-  mesh_.for_ring(v, [&](std::uint32_t w) {
+  mesh_.for_ring(v, [&](VertexId w) {
     if (n_ring < ring.size()) ring[n_ring++] = w;
     else is_too_many = true;
   });
   if (is_too_many) return false;
   int common = 0;
-  mesh_.for_ring(u, [&](std::uint32_t w) {
+  mesh_.for_ring(u, [&](VertexId w) {
     common += std::find(ring.begin(), ring.begin() + static_cast<std::ptrdiff_t>(n_ring), w) != ring.begin() + static_cast<std::ptrdiff_t>(n_ring) ? 1 : 0;
   });
-  return common == (o == k_none ? 1 : 2);
+  return common == (o.is_valid() ? 2 : 1);
 }
 
 /// Returns the quality of the worst triangle that the collapse changes; k_folded also if an edge would become longer than `most`.
-double Remesher::collapse_quality(std::uint32_t h, double most) const {
-  const std::uint32_t v = mesh_.from(h), u = mesh_.to(h), o = mesh_.twin[h];
+double Remesher::collapse_quality(HalfedgeId h, double most) const {
+  const VertexId v = mesh_.from(h), u = mesh_.to(h);
+  const HalfedgeId o = mesh_.twins[h];
   const WorkVertex& stays = mesh_.vertices[u];
   double worst = 1.0;
-  mesh_.for_out(v, [&](std::uint32_t e) {
-    if (worst == k_folded || e == h || (o != k_none && e / 3 == o / 3)) return;
-    const std::uint32_t w = mesh_.to(e);
+  mesh_.for_out(v, [&](HalfedgeId e) {
+    if (worst == k_folded || e == h || (o.is_valid() && triangle_of(e) == triangle_of(o))) return;
+    const VertexId w = mesh_.to(e);
     const WorkVertex& other = mesh_.vertices[w];
     // An edge that is too long already will be halved in any case.
     const double length = distance(stays.point, other.point);
@@ -385,27 +387,27 @@ double Remesher::collapse_quality(std::uint32_t h, double most) const {
       worst = k_folded;
       return;
     }
-    std::array<std::uint32_t, 3> corner = mesh_.triangles[e / 3];
-    corner[e % 3] = u;
-    worst = std::min(worst, quality_of(corner, {mesh_.at(corner[0]), mesh_.at(corner[1]), mesh_.at(corner[2])}, mesh_.hint[e / 3]));
+    TriangleVertices corner = mesh_.triangles[triangle_of(e)];
+    corner[corner_of(e)] = u;
+    worst = std::min(worst, quality_of(corner, mesh_.hint[triangle_of(e)]));
   });
   return worst;
 }
 
 /// Collapses the edge in the direction that leaves better triangles, if these are better than `floor`.
-bool Remesher::try_collapse(std::uint32_t h, double floor, double most) {
-  std::uint32_t best = k_none;
+bool Remesher::try_collapse(HalfedgeId h, double floor, double most) {
+  HalfedgeId best;
   double largest = floor;
-  for (const std::uint32_t e : {h, mesh_.twin[h]}) {
-    if (e == k_none || !is_collapse_legal(e)) continue;
+  for (const HalfedgeId e : {h, mesh_.twins[h]}) {
+    if (!e.is_valid() || !is_collapse_legal(e)) continue;
     if (const double q = collapse_quality(e, most); q > largest) {
       largest = q;
       best = e;
     }
   }
   // An open boundary has only one half-edge. A collapse in the other direction would need its twin, so it is not possible.
-  if (best == k_none) return false;
-  const std::uint32_t u = mesh_.to(best);
+  if (!best.is_valid()) return false;
+  const VertexId u = mesh_.to(best);
   mesh_.collapse(best);
   update_fan(u);
   return true;
@@ -413,14 +415,14 @@ bool Remesher::try_collapse(std::uint32_t h, double floor, double most) {
 
 std::int64_t Remesher::collapse_short(double least, bool is_first) {
   std::int64_t n = 0;
-  std::vector<std::pair<double, std::uint32_t>> found;
-  for (std::uint32_t h = 0; h < mesh_.twin.size(); ++h) {
-    if (mesh_.is_gone(h / 3) || (mesh_.twin[h] != k_none && mesh_.twin[h] < h) || is_locked(h)) continue;
+  std::vector<std::pair<double, HalfedgeId>> found;
+  for (const HalfedgeId h : mesh_.twins.ids()) {
+    if (!mesh_.is_first(h) || is_locked(h)) continue;
     if (const double ratio = length_ratio(h); ratio < least) found.emplace_back(ratio, h);
   }
   std::sort(found.begin(), found.end());
   for (const auto& [ratio, h] : found) {
-    if (mesh_.is_gone(h / 3) || !(length_ratio(h) < least)) continue;
+    if (mesh_.is_removed(triangle_of(h)) || !(length_ratio(h) < least)) continue;
     const double before = std::min(fan_quality(mesh_.from(h)), fan_quality(mesh_.to(h)));
     if (try_collapse(h, std::max(std::min(before, k_good_enough) - 1e-12, is_first ? -2.0 : 0.0), k_longest_after_collapse)) ++n;
   }
@@ -431,43 +433,45 @@ std::int64_t Remesher::collapse_short(double least, bool is_first) {
 // ---- flips -------------------------------------------------------------------------------------------------------------------------------
 
 /// Returns true if the edge can be flipped and both triangles are then better than `floor`.
-bool Remesher::is_flip_good(std::uint32_t h, double floor) const {
-  const std::uint32_t o = mesh_.twin[h];
-  if (o == k_none || mesh_.line[h] != k_no_line) return false;
-  const std::uint32_t a = mesh_.from(h), b = mesh_.to(h), c = mesh_.apex(h), d = mesh_.apex(o);
-  return c != d && quality_of({c, d, b}, {mesh_.at(c), mesh_.at(d), mesh_.at(b)}, mesh_.hint[h / 3]) > floor &&
-         quality_of({d, c, a}, {mesh_.at(d), mesh_.at(c), mesh_.at(a)}, mesh_.hint[o / 3]) > floor && !mesh_.is_edge(c, d);
+bool Remesher::is_flip_good(HalfedgeId h, double floor) const {
+  const HalfedgeId o = mesh_.twins[h];
+  if (!o.is_valid() || mesh_.is_line(h)) return false;
+  const VertexId a = mesh_.from(h), b = mesh_.to(h), c = mesh_.apex(h), d = mesh_.apex(o);
+  return c != d && quality_of({c, d, b}, mesh_.hint[triangle_of(h)]) > floor && quality_of({d, c, a}, mesh_.hint[triangle_of(o)]) > floor &&
+         !mesh_.is_edge(c, d);
 }
 
-void Remesher::flip(std::uint32_t h) {
-  const std::uint32_t t = h / 3, u = mesh_.twin[h] / 3;
-  mesh_.flip(h);
-  update(t);
-  update(u);
+void Remesher::flip(HalfedgeId h) {
+  const HalfedgeId o = mesh_.twins[h];
+  const VertexId a = mesh_.from(h), b = mesh_.to(h), c = mesh_.apex(h), d = mesh_.apex(o);
+  mesh_.flip(h, {c, d, b}, {d, c, a});
+  update(triangle_of(h));
+  update(triangle_of(o));
 }
 
-bool Remesher::try_flip(std::uint32_t h, double gain) {
-  const std::uint32_t o = mesh_.twin[h];
-  if (o == k_none || !is_flip_good(h, std::min(quality(h / 3), quality(o / 3)) + gain)) return false;
+bool Remesher::try_flip(HalfedgeId h, double gain) {
+  const HalfedgeId o = mesh_.twins[h];
+  if (!o.is_valid() || !is_flip_good(h, std::min(quality(triangle_of(h)), quality(triangle_of(o))) + gain)) return false;
   flip(h);
   return true;
 }
 
 std::int64_t Remesher::flip_edges() {
   std::int64_t n = 0;
-  std::vector<std::uint32_t> stack;
-  for (std::uint32_t h = static_cast<std::uint32_t>(mesh_.twin.size()); h-- > 0;) {
-    const std::uint32_t o = mesh_.twin[h];
-    if (mesh_.is_gone(h / 3) || o == k_none || o < h || mesh_.line[h] != k_no_line) continue;
-    if (std::min(quality(h / 3), quality(o / 3)) < k_flip_below) stack.push_back(h);
+  std::vector<HalfedgeId> stack;
+  for (std::size_t i = mesh_.twins.size(); i-- > 0;) {
+    const HalfedgeId h(i), o = mesh_.twins[h];
+    if (!mesh_.is_first(h) || !o.is_valid() || mesh_.is_line(h)) continue;
+    if (std::min(quality(triangle_of(h)), quality(triangle_of(o))) < k_flip_below) stack.push_back(h);
   }
   while (!stack.empty()) {
-    const std::uint32_t h = stack.back();
+    const HalfedgeId h = stack.back();
     stack.pop_back();
-    const std::uint32_t o = mesh_.twin[h];
+    const HalfedgeId o = mesh_.twins[h];
     if (!try_flip(h, k_flip_gain)) continue;
     ++n;
-    for (const std::uint32_t e : {3 * (h / 3) + 1, 3 * (h / 3) + 2, 3 * (o / 3) + 1, 3 * (o / 3) + 2}) stack.push_back(e);
+    for (const TriangleId t : {triangle_of(h), triangle_of(o)})
+      for (const int k : {1, 2}) stack.push_back(halfedge(t, k));
   }
   context_.check_stop();
   return n;
@@ -475,15 +479,15 @@ std::int64_t Remesher::flip_edges() {
 
 std::int64_t Remesher::regularise() {
   std::int64_t n = 0;
-  std::vector<int> excess(mesh_.vertices.size(), 0);
-  for (std::uint32_t v = 0; v < mesh_.vertices.size(); ++v) {
-    if (mesh_.vertices[v].out == k_none) continue;
-    excess[v] = static_cast<int>(valence(v)) - 6;
+  Column<VertexId, int> excess(mesh_.vertices.size(), 0);
+  for (const VertexId v : mesh_.vertices.ids()) {
+    if (!mesh_.outgoing[v].is_valid()) continue;
+    excess[v] = valence(v) - 6;
   }
-  for (std::uint32_t h = 0; h < mesh_.twin.size(); ++h) {
-    const std::uint32_t o = mesh_.twin[h];
-    if (mesh_.is_gone(h / 3) || o == k_none || o < h || mesh_.line[h] != k_no_line) continue;
-    const std::array<std::uint32_t, 4> v{mesh_.from(h), mesh_.to(h), mesh_.apex(h), mesh_.apex(o)};
+  for (const HalfedgeId h : mesh_.twins.ids()) {
+    const HalfedgeId o = mesh_.twins[h];
+    if (!mesh_.is_first(h) || !o.is_valid() || mesh_.is_line(h)) continue;
+    const std::array<VertexId, 4> v{mesh_.from(h), mesh_.to(h), mesh_.apex(h), mesh_.apex(o)};
     // The ideal number of neighbours of corners is unknown.
     int gain = 0;
     for (std::size_t k = 0; k < 4; ++k)
@@ -499,21 +503,21 @@ std::int64_t Remesher::regularise() {
 
 std::vector<Remesher::Strip> Remesher::strips() const {
   std::vector<Strip> found;
-  for (std::uint32_t h = 0; h < mesh_.twin.size(); ++h) {
-    if (mesh_.is_gone(h / 3) || mesh_.twin[h] == k_none || mesh_.twin[h] < h || mesh_.line[h] != k_no_line) continue;
+  for (const HalfedgeId h : mesh_.twins.ids()) {
+    if (!mesh_.is_first(h) || !mesh_.twins[h].is_valid() || mesh_.is_line(h)) continue;
     const WorkVertex &a = mesh_.vertices[mesh_.from(h)], &b = mesh_.vertices[mesh_.to(h)];
     if (a.kind == VertexKind::face || b.kind == VertexKind::face) continue;
     if (a.kind == VertexKind::line && b.kind == VertexKind::line && a.line == b.line) continue;
-    found.push_back({mesh_.hint[h / 3], 0.5 * (a.point + b.point), distance(a.point, b.point)});
+    found.push_back({mesh_.hint[triangle_of(h)], 0.5 * (a.point + b.point), distance(a.point, b.point)});
   }
   return found;
 }
 
 std::vector<ErrorLocation> Remesher::slivers(double angle) const {
   constexpr double k_to_degrees = 180.0 / std::numbers::pi;
-  std::vector<std::pair<double, std::uint32_t>> found;
-  for (std::uint32_t t = 0; t < mesh_.triangles.size(); ++t) {
-    if (mesh_.is_gone(t)) continue;
+  std::vector<std::pair<double, TriangleId>> found;
+  for (const TriangleId t : mesh_.triangles.ids()) {
+    if (mesh_.is_removed(t)) continue;
     const auto& v = mesh_.triangles[t];
     double least = std::numbers::pi;
     for (std::size_t k = 0; k < 3; ++k) least = std::min(least, corner_angle(mesh_.at(v[k]), mesh_.at(v[(k + 1) % 3]), mesh_.at(v[(k + 2) % 3])));
@@ -524,10 +528,10 @@ std::vector<ErrorLocation> Remesher::slivers(double angle) const {
   for (const auto& [least, t] : found) {
     const auto& v = mesh_.triangles[t];
     int n_corners = 0, n_lines = 0, n_edges = 0;
-    for (std::uint32_t k = 0; k < 3; ++k) {
+    for (int k = 0; k < 3; ++k) {
       n_corners += mesh_.vertices[v[k]].kind == VertexKind::corner ? 1 : 0;
       n_lines += mesh_.vertices[v[k]].kind == VertexKind::line ? 1 : 0;
-      n_edges += mesh_.line[3 * t + k] != k_no_line ? 1 : 0;
+      n_edges += mesh_.is_line(halfedge(t, k)) ? 1 : 0;
     }
     std::ostringstream text;
     text.precision(3);
@@ -542,11 +546,11 @@ std::vector<ErrorLocation> Remesher::slivers(double angle) const {
 TriMesh Remesher::result() const {
   TriMesh out;
   out.patches = r_.mesh->patches;
-  std::vector<VertexId> ids(mesh_.vertices.size());
-  std::vector<std::uint8_t> is_copy(mesh_.vertices.size(), 0);
+  Column<VertexId, VertexId> ids(mesh_.vertices.size());
+  Column<VertexId, std::uint8_t> is_copy(mesh_.vertices.size(), 0);
   for (const auto& [copy, was] : copies_) is_copy[copy] = 1;
-  for (std::size_t v = 0; v < mesh_.vertices.size(); ++v)
-    if (mesh_.vertices[v].out != k_none && is_copy[v] == 0) ids[v] = out.points.push_back(mesh_.vertices[v].point);
+  for (const VertexId v : mesh_.vertices.ids())
+    if (mesh_.outgoing[v].is_valid() && is_copy[v] == 0) ids[v] = out.points.push_back(mesh_.vertices[v].point);
   // Vertices on lines with rows were copied. The copies are merged again, except on borders that have moved.
   for (const auto& [copy, was] : copies_)
     if (!ids[was].is_valid()) ids[was] = out.points.push_back(mesh_.vertices[was].point);
@@ -557,13 +561,13 @@ TriMesh Remesher::result() const {
     for (std::size_t k = 1; k < column.rows.size(); ++k) rows.back().push_back(out.points.push_back(column.rows[k].point));
     ids[column.vertex] = rows.back().back();
   }
-  for (std::size_t t = 0; t < mesh_.triangles.size(); ++t) {
-    if (mesh_.is_gone(static_cast<std::uint32_t>(t))) continue;
+  for (const TriangleId t : mesh_.triangles.ids()) {
+    if (mesh_.is_removed(t)) continue;
     const auto& v = mesh_.triangles[t];
     out.triangles.push_back({ids[v[0]], ids[v[1]], ids[v[2]]});
     out.triangle_patch.push_back(r_.mesh->triangle_patch[mesh_.hint[t]]);
   }
-  const auto id_at = [&](std::uint32_t vertex, std::size_t column, std::size_t row) { return column == k_no_column ? ids[vertex] : rows[column][row]; };
+  const auto id_at = [&](VertexId vertex, std::size_t column, std::size_t row) { return column == k_no_column ? ids[vertex] : rows[column][row]; };
   for (const RowCell& cell : row_cells()) {
     const RowEdge& edge = row_edges_[cell.edge];
     TriangleVertices v;
@@ -578,9 +582,9 @@ TriMesh Remesher::result() const {
 }
 
 std::vector<TriangleId> Remesher::reference_triangles_of(const std::vector<std::array<std::uint32_t, 2>>& pairs, int rings) const {
-  std::vector<std::uint32_t> left;
-  for (std::uint32_t t = 0; t < mesh_.triangles.size(); ++t)
-    if (!mesh_.is_gone(t)) left.push_back(t);
+  std::vector<TriangleId> left;
+  for (const TriangleId t : mesh_.triangles.ids())
+    if (!mesh_.is_removed(t)) left.push_back(t);
   std::vector<std::uint8_t> is_found(r_.mesh->n_triangles(), 0);
   const auto mark_around = [&](VertexId v) {
     for (const HalfedgeId h : r_.topology.outgoing(v)) is_found[triangle_of(h).index()] = 1;
@@ -601,13 +605,13 @@ std::vector<TriangleId> Remesher::reference_triangles_of(const std::vector<std::
         for (const TriangleId t : hints[i - left.size()]) is_found[t.index()] = 1;
         continue;
       }
-      const std::uint32_t t = left[i];
+      const TriangleId t = left[i];
       const auto& v = mesh_.triangles[t];
       Box box;
-      for (const std::uint32_t k : v) box.add(mesh_.at(k));
+      for (const VertexId k : v) box.add(mesh_.at(k));
       // These are all reference triangles of the smooth piece that the triangle covers. They are found by walks from its corners and middle.
       std::vector<TriangleId> stack{mesh_.hint[t]};
-      for (const std::uint32_t k : v) {
+      for (const VertexId k : v) {
         const WorkVertex& w = mesh_.vertices[k];
         if (w.kind == VertexKind::face) stack.push_back(w.location.triangle);
         else if (w.kind == VertexKind::corner) mark_around(w.corner);

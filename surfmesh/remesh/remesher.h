@@ -72,45 +72,46 @@ class Remesher {
   std::vector<TriangleId> reference_triangles_of(const std::vector<std::array<std::uint32_t, 2>>& pairs, int rings) const;
 
  private:
-  double target_length(std::uint32_t h) const;
-  double length_ratio(std::uint32_t h) const;
-  bool is_locked(std::uint32_t h) const { return mesh_.line[h] != k_no_line && locked_[static_cast<std::size_t>(mesh_.line[h])] != 0; }
-  bool is_kept(std::uint32_t t) const { return r_.is_kept[mesh_.hint[t]] != 0; }
-  Vec3 normal_at(std::uint32_t v, TriangleId hint, const Point& towards, const Vec3& seen) const;
+  double target_length(HalfedgeId h) const;
+  double length_ratio(HalfedgeId h) const;
+  bool is_locked(HalfedgeId h) const { return mesh_.is_line(h) && locked_[static_cast<std::size_t>(mesh_.line(h))] != 0; }
+  bool is_kept(TriangleId t) const { return r_.is_kept[mesh_.hint[t]] != 0; }
+  Vec3 normal_at(VertexId v, TriangleId hint, const Point& towards, const Vec3& seen) const;
   /// Returns the quality computed by the last update().
-  double quality(std::uint32_t t) const { return quality_[t]; }
-  double quality_now(std::uint32_t t) const;
-  void update(std::uint32_t t) { quality_[t] = quality_now(t); }
-  void update_fan(std::uint32_t v) {
-    mesh_.for_out(v, [&](std::uint32_t h) { update(h / 3); });
+  double quality(TriangleId t) const { return quality_[t]; }
+  double quality_now(TriangleId t) const;
+  void update(TriangleId t) { quality_[t] = quality_now(t); }
+  void update_all();
+  void update_fan(VertexId v) {
+    mesh_.for_out(v, [&](HalfedgeId h) { update(triangle_of(h)); });
   }
-  double quality_of(const std::array<std::uint32_t, 3>& v, const std::array<Point, 3>& p, TriangleId hint) const;
-  bool is_at_border(std::uint32_t v) const;
-  bool lies_in_border(const std::array<std::uint32_t, 3>& v, const std::array<Point, 3>& p) const;
-  double fan_quality(std::uint32_t v) const;
-  double fan_quality_now(std::uint32_t v, double floor) const;
-  std::uint32_t valence(std::uint32_t v) const;
-  double s_on_line(std::uint32_t v, std::int32_t line) const;
+  double quality_of(const TriangleVertices& v, TriangleId hint) const;
+  bool is_at_border(VertexId v) const;
+  bool lies_in_border(const TriangleVertices& v, const std::array<Point, 3>& p) const;
+  double fan_quality(VertexId v) const;
+  double fan_quality_now(VertexId v, double floor) const;
+  int valence(VertexId v) const;
+  double s_on_line(VertexId v, std::int32_t line) const;
   void put_on_face(WorkVertex& v, const Point& p, TriangleId start) const;
   void put_on_line(WorkVertex& v, std::int32_t line, double s) const;
   void resize(WorkVertex& v, TriangleId t) const;
-  WorkVertex middle(std::uint32_t h) const;
-  bool is_split_good(std::uint32_t h, std::uint32_t m) const;
-  bool is_collapse_legal(std::uint32_t h) const;
-  double collapse_quality(std::uint32_t h, double most) const;
-  bool try_collapse(std::uint32_t h, double floor, double most);
-  bool try_flip(std::uint32_t h, double gain);
-  bool is_flip_good(std::uint32_t h, double floor) const;
-  void flip(std::uint32_t h);
-  WorkVertex smoothed(std::uint32_t v, double share) const;
-  bool move(std::uint32_t v, double good);
-  bool search(std::uint32_t v);
-  std::vector<std::vector<std::uint32_t>> colours() const;
+  WorkVertex middle(HalfedgeId h) const;
+  bool is_split_good(HalfedgeId h, VertexId m) const;
+  bool is_collapse_legal(HalfedgeId h) const;
+  double collapse_quality(HalfedgeId h, double most) const;
+  bool try_collapse(HalfedgeId h, double floor, double most);
+  bool try_flip(HalfedgeId h, double gain);
+  bool is_flip_good(HalfedgeId h, double floor) const;
+  void flip(HalfedgeId h);
+  WorkVertex smoothed(VertexId v, double share) const;
+  bool move(VertexId v, double good);
+  bool search(VertexId v);
+  std::vector<std::vector<VertexId>> colours() const;
 
   /// The rows at one location of a line, on one side. rows[0] lies on the line, and the last one is the border vertex.
   struct LineColumn {
-    std::uint32_t vertex = k_none;                    ///< vertex of the border
-    std::uint32_t before = 0, after = 0;              ///< its neighbours along the border; the face is to the left of the path from one to the other
+    VertexId vertex;                                  ///< vertex of the border
+    VertexId before, after;                           ///< its neighbours along the border; the face is to the left of the path from one to the other
     std::size_t before_column = 0, after_column = 0;  ///< columns of these neighbours; k_no_column: a neighbour without rows
     std::vector<WorkVertex> rows;
     std::vector<double> heights;  ///< m, heights of the rows
@@ -125,7 +126,7 @@ class Remesher {
   };
   /// An edge of a line with rows on this side, from a to b with the face to the left; a and b are vertices of the border.
   struct RowEdge {
-    std::uint32_t a, b;
+    VertexId a, b;
     std::size_t a_column, b_column;
     TriangleId hint;
   };
@@ -137,14 +138,14 @@ class Remesher {
   static constexpr std::size_t k_no_column = ~std::size_t{0};
 
   void open_lines(std::span<const LineRows> rows);
-  bool is_front(std::uint32_t h) const { return mesh_.line[h] == front_; }
+  bool is_front(HalfedgeId h) const { return mesh_.line(h) == front_; }
   bool grow_column(LineColumn& column, std::size_t row);
   bool advance(LineColumn& column, const WorkVertex& target, double height);
   bool is_step_good(const LineColumn& column, const WorkVertex& top, std::size_t row) const;
-  bool place(std::uint32_t v, const WorkVertex& where, double floor);
-  bool make_room(std::uint32_t v, const Point& towards);
-  bool take_into(std::uint32_t h, double floor);
-  const WorkVertex& row_at(std::uint32_t vertex, std::size_t column, std::size_t row) const;
+  bool place(VertexId v, const WorkVertex& where, double floor);
+  bool make_room(VertexId v, const Point& towards);
+  bool take_into(HalfedgeId h, double floor);
+  const WorkVertex& row_at(VertexId vertex, std::size_t column, std::size_t row) const;
   std::size_t n_rows_of(std::size_t column) const { return column == k_no_column ? 0 : columns_[column].n_rows(); }
   Vec3 row_direction(const LineColumn& column, std::size_t row) const;
   std::vector<RowCell> row_cells() const;
@@ -153,7 +154,7 @@ class Remesher {
   const RemeshSizes& sizes_;
   RunContext context_;
   WorkMesh mesh_;
-  std::vector<double> quality_;          ///< quality of each triangle; k_folded if it is inverted against the reference
+  Column<TriangleId, double> quality_;   ///< quality of each triangle; k_folded if it is inverted against the reference
   std::vector<std::uint8_t> locked_;     ///< flags of the lines that border kept triangles
   std::vector<std::uint8_t> is_border_;  ///< flags of the lines that are open boundaries; empty if there is none
   double flat_ = 0.0;                    ///< m
@@ -161,7 +162,7 @@ class Remesher {
   std::vector<LineColumn> columns_;
   std::vector<RowEdge> row_edges_;
   /// Vertices of the opened mesh, each with the line vertex from which it was copied; sorted by the former.
-  std::vector<std::pair<std::uint32_t, std::uint32_t>> copies_;
+  std::vector<std::pair<VertexId, VertexId>> copies_;
 };
 
 }  // namespace sterna::surfmesh

@@ -30,13 +30,13 @@ constexpr std::size_t k_move_chunk = 256;
 }  // namespace
 
 /// Computes a greedy colouring in the order of vertices. No two neighbours have the same colour.
-std::vector<std::vector<std::uint32_t>> Remesher::colours() const {
-  std::vector<std::uint8_t> colour(mesh_.vertices.size(), 255);
-  std::vector<std::vector<std::uint32_t>> lists;
-  for (std::uint32_t v = 0; v < mesh_.vertices.size(); ++v) {
-    if (mesh_.vertices[v].out == k_none || mesh_.vertices[v].kind == VertexKind::corner) continue;
+std::vector<std::vector<VertexId>> Remesher::colours() const {
+  Column<VertexId, std::uint8_t> colour(mesh_.vertices.size(), 255);
+  std::vector<std::vector<VertexId>> lists;
+  for (const VertexId v : mesh_.vertices.ids()) {
+    if (!mesh_.outgoing[v].is_valid() || mesh_.vertices[v].kind == VertexKind::corner) continue;
     std::uint64_t used = 0;
-    mesh_.for_ring(v, [&](std::uint32_t w) {
+    mesh_.for_ring(v, [&](VertexId w) {
       if (colour[w] < 64) used |= std::uint64_t{1} << colour[w];
     });
     const int c = std::countr_one(used);
@@ -50,23 +50,23 @@ std::vector<std::vector<std::uint32_t>> Remesher::colours() const {
 
 /// Returns the vertex moved by a fraction of the distance to a centre. On a line the centre is the middle between its neighbours, on a face the centre of the
 /// adjacent triangles, each weighted by its area in units of the target length.
-WorkVertex Remesher::smoothed(std::uint32_t number, double share) const {
+WorkVertex Remesher::smoothed(VertexId number, double share) const {
   const WorkVertex& v = mesh_.vertices[number];
   WorkVertex moved = v;
   if (v.kind == VertexKind::line) {
     double s[2] = {0.0, 0.0}, size[2] = {0.0, 0.0};
     int n = 0;
-    mesh_.for_out(number, [&](std::uint32_t h) {
-      const auto take = [&](std::uint32_t w) {
+    mesh_.for_out(number, [&](HalfedgeId h) {
+      const auto take = [&](VertexId w) {
         if (n < 2) {
           s[n] = s_on_line(w, v.line);
           size[n] = mesh_.vertices[w].size;
         }
         ++n;
       };
-      if (mesh_.line[h] == v.line) take(mesh_.to(h));
-      const std::uint32_t in = WorkMesh::prev(h);
-      if (mesh_.twin[in] == k_none && mesh_.line[in] == v.line) take(mesh_.from(in));
+      if (mesh_.line(h) == v.line) take(mesh_.to(h));
+      const HalfedgeId in = previous(h);
+      if (!mesh_.twins[in].is_valid() && mesh_.line(in) == v.line) take(mesh_.from(in));
     });
     if (n != 2) return v;
     const double target = s[0] + (s[1] - s[0]) * (size[0] + v.size) / (size[0] + 2.0 * v.size + size[1]);
@@ -75,7 +75,7 @@ WorkVertex Remesher::smoothed(std::uint32_t number, double share) const {
   }
   Vec3 sum;
   double weights = 0.0;
-  mesh_.for_out(number, [&](std::uint32_t h) {
+  mesh_.for_out(number, [&](HalfedgeId h) {
     const WorkVertex &a = mesh_.vertices[mesh_.to(h)], &b = mesh_.vertices[mesh_.apex(h)];
     const double size = v.size + a.size + b.size;
     const double weight = triangle_area(v.point, a.point, b.point) / (size * size * size * size);
@@ -90,7 +90,7 @@ WorkVertex Remesher::smoothed(std::uint32_t number, double share) const {
   return moved;
 }
 
-bool Remesher::move(std::uint32_t v, double good) {
+bool Remesher::move(VertexId v, double good) {
   if (mesh_.vertices[v].is_fixed) return false;
   const double before = fan_quality(v);
   if (before > k_still) return false;
@@ -112,7 +112,7 @@ void Remesher::smooth(int rounds, double floor) {
   const auto lists = colours();
   for (int round = 0; round < rounds; ++round)
     for (const auto& list : lists) {
-      if (sizes_.is_serial()) std::for_each(list.begin(), list.end(), [&](std::uint32_t v) { move(v, floor); });
+      if (sizes_.is_serial()) std::for_each(list.begin(), list.end(), [&](VertexId v) { move(v, floor); });
       else
         parallel_for(
             context_, list.size(), [&](std::size_t i) { move(list[i], floor); }, k_move_chunk);
@@ -120,7 +120,7 @@ void Remesher::smooth(int rounds, double floor) {
 }
 
 /// Searches around the vertex for a location where its worst triangle is better.
-bool Remesher::search(std::uint32_t number) {
+bool Remesher::search(VertexId number) {
   if (mesh_.vertices[number].kind == VertexKind::corner || mesh_.vertices[number].is_fixed) return false;
   bool has_moved = false;
   double best = fan_quality(number);
@@ -159,20 +159,20 @@ bool Remesher::search(std::uint32_t number) {
 }
 
 std::int64_t Remesher::improve(double target_quality) {
-  std::vector<std::pair<double, std::uint32_t>> bad;
-  for (std::uint32_t t = 0; t < mesh_.triangles.size(); ++t) {
-    if (mesh_.is_gone(t) || is_kept(t)) continue;
+  std::vector<std::pair<double, TriangleId>> bad;
+  for (const TriangleId t : mesh_.triangles.ids()) {
+    if (mesh_.is_removed(t) || is_kept(t)) continue;
     if (const double q = quality(t); q < target_quality) bad.emplace_back(q, t);
   }
   std::sort(bad.begin(), bad.end());
   std::int64_t n = 0;
-  const auto length2 = [&](std::uint32_t h) { return norm2(mesh_.at(mesh_.to(h)) - mesh_.at(mesh_.from(h))); };
+  const auto length2 = [&](HalfedgeId h) { return norm2(mesh_.at(mesh_.to(h)) - mesh_.at(mesh_.from(h))); };
   for (const auto& [was, t] : bad) {
-    if (mesh_.is_gone(t)) continue;
+    if (mesh_.is_removed(t)) continue;
     const double q = quality(t);
     if (q >= target_quality) continue;
-    std::array<std::uint32_t, 3> edges{3 * t, 3 * t + 1, 3 * t + 2};
-    std::sort(edges.begin(), edges.end(), [&](std::uint32_t a, std::uint32_t b) { return std::pair(length2(a), a) < std::pair(length2(b), b); });
+    std::array<HalfedgeId, 3> edges{halfedge(t, 0), halfedge(t, 1), halfedge(t, 2)};
+    std::sort(edges.begin(), edges.end(), [&](HalfedgeId a, HalfedgeId b) { return std::pair(length2(a), a) < std::pair(length2(b), b); });
     bool is_done = false;
     for (std::size_t k = 3; k-- > 0 && !is_done;) is_done = try_flip(edges[k], k_search_gain);
     const bool is_sliver = q < k_sliver_ratio;

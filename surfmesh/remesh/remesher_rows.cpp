@@ -2,7 +2,6 @@
 // triangles in front of it make room by collapses into it, flips and moves. The gap between line and border is filled with the rows of the columns.
 #include <algorithm>
 #include <cmath>
-#include <limits>
 
 #include "geom/math/measures.h"
 #include "surfmesh/face/band_rows.h"
@@ -43,15 +42,15 @@ void Remesher::open_lines(std::span<const LineRows> rows) {
   std::vector<const LineRows*> rows_of(r_.lines.size(), nullptr);
   for (const LineRows& l : rows) rows_of[static_cast<std::size_t>(l.line)] = &l;
   struct Cut {
-    std::uint32_t halfedge;
+    HalfedgeId halfedge;
     const SideRows* side;  ///< null if there are no rows on this side
   };
   std::vector<Cut> cuts;
-  std::vector<std::uint32_t> touched;
-  std::vector<const SideRows*> side_of(mesh_.twin.size(), nullptr);
-  for (std::uint32_t h = 0; h < mesh_.twin.size(); ++h) {
-    const std::int32_t l = mesh_.line[h];
-    if (mesh_.is_gone(h / 3) || l == k_no_line || rows_of[static_cast<std::size_t>(l)] == nullptr) continue;
+  std::vector<VertexId> touched;
+  Column<HalfedgeId, const SideRows*> side_of(mesh_.twins.size(), nullptr);
+  for (const HalfedgeId h : mesh_.twins.ids()) {
+    const std::int32_t l = mesh_.line(h);
+    if (mesh_.is_removed(triangle_of(h)) || l == k_no_line || rows_of[static_cast<std::size_t>(l)] == nullptr) continue;
     const bool is_along = s_on_line(mesh_.from(h), l) < s_on_line(mesh_.to(h), l);
     const SideRows& side = rows_of[static_cast<std::size_t>(l)]->sides[is_along ? 0 : 1];
     cuts.push_back({h, side.is_any ? &side : nullptr});
@@ -60,35 +59,34 @@ void Remesher::open_lines(std::span<const LineRows> rows) {
   }
   std::sort(touched.begin(), touched.end());
   touched.erase(std::unique(touched.begin(), touched.end()), touched.end());
-  std::vector<std::vector<std::uint32_t>> around;
-  for (const std::uint32_t v : touched) {
+  std::vector<std::vector<HalfedgeId>> around;
+  for (const VertexId v : touched) {
     around.emplace_back();
-    mesh_.for_out(v, [&](std::uint32_t h) { around.back().push_back(h); });
+    mesh_.for_out(v, [&](HalfedgeId h) { around.back().push_back(h); });
   }
   for (const Cut& cut : cuts) {
-    mesh_.twin[cut.halfedge] = k_none;
-    locked_[static_cast<std::size_t>(mesh_.line[cut.halfedge])] = 1;
+    mesh_.twins[cut.halfedge] = {};
+    locked_[static_cast<std::size_t>(mesh_.line(cut.halfedge))] = 1;
   }
   struct Border {
     std::size_t column;
-    std::uint32_t in, out;  ///< half-edges of the border that end and begin at the column's vertex
+    HalfedgeId in, out;  ///< half-edges of the border that end and begin at the column's vertex
   };
   std::vector<Border> borders;
   for (std::size_t i = 0; i < touched.size(); ++i) {
-    for (const std::uint32_t first : around[i]) {
-      if (mesh_.twin[first] != k_none) continue;
-      const auto copy = static_cast<std::uint32_t>(mesh_.vertices.size());
+    for (const HalfedgeId first : around[i]) {
+      if (mesh_.twins[first].is_valid()) continue;
       WorkVertex v = mesh_.vertices[touched[i]];
-      v.out = first;
       v.is_fixed = true;
+      const VertexId copy = mesh_.vertices.push_back(v);
+      mesh_.outgoing.push_back(first);
       bool has_line = false;
-      std::uint32_t in = k_none;
-      for (std::uint32_t h = first; h != k_none; h = mesh_.twin[in]) {
-        mesh_.triangles[h / 3][h % 3] = copy;
-        has_line = has_line || (h != first && mesh_.line[h] != k_no_line);
-        in = WorkMesh::prev(h);
+      HalfedgeId in;
+      for (HalfedgeId h = first; h.is_valid(); h = mesh_.twins[in]) {
+        mesh_.triangles[triangle_of(h)][corner_of(h)] = copy;
+        has_line = has_line || (h != first && mesh_.is_line(h));
+        in = previous(h);
       }
-      mesh_.vertices.push_back(v);
       copies_.emplace_back(copy, touched[i]);
       if (side_of[first] == nullptr || side_of[in] == nullptr || has_line) continue;
       borders.push_back({columns_.size(), in, first});
@@ -97,9 +95,9 @@ void Remesher::open_lines(std::span<const LineRows> rows) {
       column.side_rows = side_of[first];
       columns_.push_back(column);
     }
-    mesh_.vertices[touched[i]].out = k_none;
+    mesh_.outgoing[touched[i]] = {};
   }
-  std::vector<std::size_t> column_of(mesh_.vertices.size(), k_no_column);
+  Column<VertexId, std::size_t> column_of(mesh_.vertices.size(), k_no_column);
   for (std::size_t c = 0; c < columns_.size(); ++c) column_of[columns_[c].vertex] = c;
   for (const Border& b : borders) {
     LineColumn& column = columns_[b.column];
@@ -110,7 +108,7 @@ void Remesher::open_lines(std::span<const LineRows> rows) {
     const Point& p = mesh_.at(column.vertex);
     column.spacing = 0.5 * (distance(p, mesh_.at(column.before)) + distance(p, mesh_.at(column.after)));
     // The vertex on the line needs the normal of this side. If both sides are in one smooth piece, the hints of triangles may be from the other side.
-    const std::int32_t l = mesh_.line[b.out];
+    const std::int32_t l = mesh_.line(b.out);
     const FeatureLine& line = r_.lines[static_cast<std::size_t>(l)];
     column.is_nose = rows_of[static_cast<std::size_t>(l)]->is_nose;
     const double s_here = s_on_line(column.vertex, l);
@@ -125,13 +123,13 @@ void Remesher::open_lines(std::span<const LineRows> rows) {
   }
   for (const Cut& cut : cuts) {
     if (cut.side == nullptr) continue;
-    const std::uint32_t a = mesh_.from(cut.halfedge), b = mesh_.to(cut.halfedge);
-    row_edges_.push_back({a, b, column_of[a], column_of[b], mesh_.hint[cut.halfedge / 3]});
-    mesh_.line[cut.halfedge] = front_;
+    const VertexId a = mesh_.from(cut.halfedge), b = mesh_.to(cut.halfedge);
+    row_edges_.push_back({a, b, column_of[a], column_of[b], mesh_.hint[triangle_of(cut.halfedge)]});
+    mesh_.labels[cut.halfedge] = front_;
   }
 }
 
-const WorkVertex& Remesher::row_at(std::uint32_t vertex, std::size_t column, std::size_t row) const {
+const WorkVertex& Remesher::row_at(VertexId vertex, std::size_t column, std::size_t row) const {
   if (column == k_no_column) return mesh_.vertices[vertex];
   const LineColumn& c = columns_[column];
   return c.rows[std::min(row, c.n_rows())];
@@ -157,7 +155,7 @@ bool Remesher::is_step_good(const LineColumn& c, const WorkVertex& top, std::siz
     return dot(n, top.normal) > k_row_cosine * norm(n);
   };
   for (const bool is_after : {false, true}) {
-    const std::uint32_t vertex = is_after ? c.after : c.before;
+    const VertexId vertex = is_after ? c.after : c.before;
     const std::size_t column = is_after ? c.after_column : c.before_column;
     const std::size_t n = n_rows_of(column);
     if (n + 1 < row) return false;
@@ -175,10 +173,9 @@ bool Remesher::is_step_good(const LineColumn& c, const WorkVertex& top, std::siz
 }
 
 /// Moves a vertex if all adjacent triangles are then better than `floor`. \return true if it was moved
-bool Remesher::place(std::uint32_t v, const WorkVertex& where, double floor) {
+bool Remesher::place(VertexId v, const WorkVertex& where, double floor) {
   const WorkVertex kept = mesh_.vertices[v];
   WorkVertex moved = where;
-  moved.out = kept.out;
   moved.is_fixed = true;
   mesh_.vertices[v] = moved;
   if (fan_quality_now(v, floor) > floor) {
@@ -190,47 +187,47 @@ bool Remesher::place(std::uint32_t v, const WorkVertex& where, double floor) {
 }
 
 /// Merges the start vertex of h, which blocks the border, into the border vertex at its end.
-bool Remesher::take_into(std::uint32_t h, double floor) {
+bool Remesher::take_into(HalfedgeId h, double floor) {
   if (!is_collapse_legal(h) || !(collapse_quality(h, k_longest_at_border) > floor)) return false;
-  const std::uint32_t u = mesh_.to(h);
+  const VertexId u = mesh_.to(h);
   mesh_.collapse(h);
   update_fan(u);
   return true;
 }
 
 /// Makes room in front of a border vertex in the direction of a point. \return true if the mesh was changed
-bool Remesher::make_room(std::uint32_t v, const Point& towards) {
+bool Remesher::make_room(VertexId v, const Point& towards) {
   const Vec3 way = towards - mesh_.at(v);
   bool has_changed = false;
   // Vertices that block the border are merged into it, the nearest first.
-  std::vector<std::pair<double, std::uint32_t>> near;
-  mesh_.for_out(v, [&](std::uint32_t h) {
-    if (mesh_.twin[h] == k_none || !(dot(mesh_.at(mesh_.to(h)) - mesh_.at(v), way) > 0.0)) return;
+  std::vector<std::pair<double, VertexId>> near;
+  mesh_.for_out(v, [&](HalfedgeId h) {
+    if (!mesh_.twins[h].is_valid() || !(dot(mesh_.at(mesh_.to(h)) - mesh_.at(v), way) > 0.0)) return;
     const double length = std::min(distance(mesh_.at(v), mesh_.at(mesh_.to(h))), distance(towards, mesh_.at(mesh_.to(h))));
     if (length < k_short_before_border * target_length(h)) near.emplace_back(length, mesh_.to(h));
   });
   std::sort(near.begin(), near.end());
   for (const auto& [length, w] : near) {
-    std::uint32_t found = k_none;
-    mesh_.for_out(v, [&](std::uint32_t h) {
-      if (mesh_.to(h) == w && mesh_.twin[h] != k_none) found = mesh_.twin[h];
+    HalfedgeId found;
+    mesh_.for_out(v, [&](HalfedgeId h) {
+      if (mesh_.to(h) == w && mesh_.twins[h].is_valid()) found = mesh_.twins[h];
     });
-    if (found != k_none && take_into(found, std::min(k_border_floor, 0.5 * std::max(fan_quality(v), 0.0)))) has_changed = true;
+    if (found.is_valid() && take_into(found, std::min(k_border_floor, 0.5 * std::max(fan_quality(v), 0.0)))) has_changed = true;
   }
-  std::vector<std::uint32_t> opposite;
-  mesh_.for_out(v, [&](std::uint32_t h) { opposite.push_back(WorkMesh::next(h)); });
-  for (const std::uint32_t h : opposite)
-    if (!mesh_.is_gone(h / 3) && try_flip(h, 1e-3)) has_changed = true;
-  std::vector<std::uint32_t> ring;
-  mesh_.for_ring(v, [&](std::uint32_t w) { ring.push_back(w); });
-  for (const std::uint32_t w : ring)
+  std::vector<HalfedgeId> opposite;
+  mesh_.for_out(v, [&](HalfedgeId h) { opposite.push_back(next(h)); });
+  for (const HalfedgeId h : opposite)
+    if (!mesh_.is_removed(triangle_of(h)) && try_flip(h, 1e-3)) has_changed = true;
+  std::vector<VertexId> ring;
+  mesh_.for_ring(v, [&](VertexId w) { ring.push_back(w); });
+  for (const VertexId w : ring)
     if (mesh_.vertices[w].kind != VertexKind::corner && move(w, k_border_floor)) has_changed = true;
   return has_changed;
 }
 
 /// Moves the border's vertex to its next row, or by a part of the distance. \return true if the row was made
 bool Remesher::advance(LineColumn& c, const WorkVertex& target, double height) {
-  const std::uint32_t v = c.vertex;
+  const VertexId v = c.vertex;
   const WorkVertex start = mesh_.vertices[v];
   const double before = fan_quality(v);
   const std::size_t row = c.rows.size();

@@ -180,8 +180,6 @@ class FlatFaces {
   }
 
  private:
-  static constexpr std::uint32_t k_none = ~std::uint32_t{0};
-
   void grow() {
     const double noise = k_plane_noise * body_length(*r_.mesh);
     std::vector<TriangleId> stack;

@@ -28,7 +28,7 @@ std::vector<std::vector<std::uint32_t>> find_loops(const RepairState& state) {
     at[edges[e].to].push_back(e);
   }
   std::vector<char> is_used(edges.size(), 0);
-  std::vector<std::uint32_t> location(state.points.size(), 0xffffffffu);  // index of each point in the walk
+  std::vector<std::uint32_t> location(state.points.size(), k_none);  // index of each point in the walk
   std::vector<std::vector<std::uint32_t>> loops;
   for (std::uint32_t start = 0; start < edges.size(); ++start) {
     if (is_used[start]) continue;
@@ -39,9 +39,9 @@ std::vector<std::vector<std::uint32_t>> find_loops(const RepairState& state) {
       is_used[e] = 1;
       const std::uint32_t from = walk.back();
       const std::uint32_t v = edges[e].from == from ? edges[e].to : edges[e].from;
-      if (location[v] != 0xffffffffu) {
+      if (location[v] != k_none) {
         std::vector<std::uint32_t> loop(walk.begin() + location[v], walk.end());
-        for (std::size_t i = location[v] + 1; i < walk.size(); ++i) location[walk[i]] = 0xffffffffu;
+        for (std::size_t i = location[v] + 1; i < walk.size(); ++i) location[walk[i]] = k_none;
         walk.resize(location[v] + 1);
         loops.push_back(std::move(loop));
       } else {
@@ -50,7 +50,7 @@ std::vector<std::vector<std::uint32_t>> find_loops(const RepairState& state) {
       }
       // If there is a choice, the walk continues in the direction of the facets, else to the side that bends back most.
       const Vec3 back = state.points[from] - state.points[v];
-      std::uint32_t next = 0xffffffffu;
+      std::uint32_t next = k_none;
       double best = 1e300;
       for (const std::uint32_t f : at[walk.back()]) {
         if (is_used[f]) continue;
@@ -62,10 +62,10 @@ std::vector<std::vector<std::uint32_t>> find_loops(const RepairState& state) {
           next = f;
         }
       }
-      if (next == 0xffffffffu) break;
+      if (next == k_none) break;
       e = next;
     }
-    for (const std::uint32_t v : walk) location[v] = 0xffffffffu;
+    for (const std::uint32_t v : walk) location[v] = k_none;
   }
   // A loop gets the direction of most of its edges.
   for (auto& loop : loops) {

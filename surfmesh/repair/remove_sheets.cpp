@@ -57,11 +57,11 @@ bool remove_flaps(RepairState& state) {
   std::vector<char> is_gone(state.facets.size(), 0);
   for (const Edge& edge : edges.edges()) {
     if (edge.count < 3) continue;
-    std::uint32_t first = 0xffffffffu;
+    std::uint32_t first = k_none;
     for (const std::uint32_t h : edges.at(edge)) {
       const std::uint32_t of = piece[h / 3];
       if (!is_flap[of] || is_gone[of]) continue;
-      if (first == 0xffffffffu) first = of;
+      if (first == k_none) first = of;
       else if (first != of) is_gone[of] = 1;
     }
   }

@@ -57,10 +57,10 @@ void RepairState::note(RepairKind kind, const std::vector<std::uint32_t>& of, do
 void RepairState::note_parts(RepairKind kind, const std::vector<char>& is_of, const EdgeTable& edges) {
   DisjointSets sets(facets.size());
   for (const Edge& edge : edges.edges()) {
-    std::uint32_t first = 0xffffffffu;
+    std::uint32_t first = k_none;
     for (const std::uint32_t h : edges.at(edge)) {
       if (!is_of[h / 3]) continue;
-      if (first == 0xffffffffu) first = h / 3;
+      if (first == k_none) first = h / 3;
       else sets.join(first, h / 3);
     }
   }

@@ -18,12 +18,11 @@ constexpr double k_apart_share = 1e-5;    ///< relative to L: distance by which 
 constexpr double k_apart_of_edge = 0.02;  ///< upper limit of that distance relative to the shortest edge at the vertex, so that no facet is inverted
 constexpr double k_join_share = 1e-4;     ///< relative to L: half the width of the bridge between bodies that touch along a line
 constexpr std::size_t k_most_named = 5;   ///< largest number of pairs of bodies named in warnings
-constexpr std::uint32_t k_no_partner = 0xffffffffu;
 
 /// Returns the twins of half-edges. At crowded edges, twins are the facets beside one wedge of the solid; at edges in `is_of_fluid`, those beside one wedge of
 /// the fluid. \pre normals point out of the solid
 std::vector<std::uint32_t> wedge_twins(const RepairState& state, const EdgeTable& edges, const std::vector<char>& is_of_fluid) {
-  std::vector<std::uint32_t> twin(3 * state.facets.size(), k_no_partner);
+  std::vector<std::uint32_t> twin(3 * state.facets.size(), k_none);
   for (std::size_t i = 0; i < edges.edges().size(); ++i) {
     const Edge& edge = edges.edges()[i];
     const auto at = edges.at(edge);
@@ -54,7 +53,7 @@ std::vector<std::uint32_t> wedge_twins(const RepairState& state, const EdgeTable
       }
     }
     for (const std::uint32_t h : at)
-      if (twin[h] != k_no_partner && twin[twin[h]] != h) twin[h] = k_no_partner;  // facets do not alternate; the final check reports such edges
+      if (twin[h] != k_none && twin[twin[h]] != h) twin[h] = k_none;  // facets do not alternate; the final check reports such edges
   }
   return twin;
 }
@@ -82,7 +81,7 @@ std::vector<std::vector<std::uint32_t>> fans_at(const RepairState& state, const 
       members.push_back(h);
       // The neighbours across both edges of this corner, whatever their orientation.
       for (const std::uint32_t over : {previous_halfedge(h), h}) {
-        if (twin[over] == k_no_partner) continue;
+        if (twin[over] == k_none) continue;
         const std::uint32_t facet = twin[over] / 3;
         for (std::uint32_t g = 3 * facet; g < 3 * facet + 3; ++g) {
           if (state.facets[facet][g % 3] != v || fan.count(g)) continue;
@@ -97,18 +96,18 @@ std::vector<std::vector<std::uint32_t>> fans_at(const RepairState& state, const 
 
 /// Returns the body number of each facet. The facets of a body are connected through twins.
 std::vector<std::uint32_t> bodies_over(const RepairState& state, const std::vector<std::uint32_t>& twin) {
-  std::vector<std::uint32_t> body(state.facets.size(), k_no_partner);
+  std::vector<std::uint32_t> body(state.facets.size(), k_none);
   std::vector<std::uint32_t> stack;
   std::uint32_t n = 0;
   for (std::uint32_t start = 0; start < state.facets.size(); ++start) {
-    if (body[start] != k_no_partner) continue;
+    if (body[start] != k_none) continue;
     body[start] = n;
     stack.push_back(start);
     while (!stack.empty()) {
       const std::uint32_t t = stack.back();
       stack.pop_back();
       for (std::uint32_t h = 3 * t; h < 3 * t + 3; ++h) {
-        if (twin[h] == k_no_partner || body[twin[h] / 3] != k_no_partner) continue;
+        if (twin[h] == k_none || body[twin[h] / 3] != k_none) continue;
         body[twin[h] / 3] = n;
         stack.push_back(twin[h] / 3);
       }
@@ -134,7 +133,7 @@ std::size_t count_crowded(const EdgeTable& edges) {
 
 /// Adds a vertex in the middle of each of these edges, so that the edge can be opened or joined there while its ends stay unchanged.
 void split_edges(RepairState& state, const EdgeTable& edges, const std::vector<char>& is_split) {
-  std::vector<std::uint32_t> middle(3 * state.facets.size(), k_no_partner);  // vertex in the middle of each half-edge
+  std::vector<std::uint32_t> middle(3 * state.facets.size(), k_none);  // vertex in the middle of each half-edge
   for (std::size_t i = 0; i < is_split.size(); ++i) {
     if (!is_split[i]) continue;
     const Edge& edge = edges.edges()[i];
@@ -147,7 +146,7 @@ void split_edges(RepairState& state, const EdgeTable& edges, const std::vector<c
     std::vector<std::uint32_t> polygon;
     for (std::size_t k = 0; k < 3; ++k) {
       polygon.push_back(state.facets[t][k]);
-      if (middle[3 * t + k] != k_no_partner) polygon.push_back(middle[3 * t + k]);
+      if (middle[3 * t + k] != k_none) polygon.push_back(middle[3 * t + k]);
     }
     if (polygon.size() == 3) continue;
     state.info[t].is_touched = true;
@@ -169,7 +168,7 @@ void split_edges(RepairState& state, const EdgeTable& edges, const std::vector<c
       continue;
     }
     for (std::size_t k = 0; k < 3; ++k) {  // the two sides at corner k + 1
-      if (m[k] == k_no_partner || m[(k + 1) % 3] == k_no_partner) continue;
+      if (m[k] == k_none || m[(k + 1) % 3] == k_none) continue;
       state.facets[t] = {m[k], corners[(k + 1) % 3], m[(k + 1) % 3]};
       state.add({corners[k], m[k], m[(k + 1) % 3]}, info);
       state.add({corners[k], m[(k + 1) % 3], corners[(k + 2) % 3]}, info);

@@ -21,7 +21,6 @@ constexpr double k_growth = 4.0;         ///< factor from one tolerance to the n
 constexpr int k_tries = 4;               ///< largest number of rounds at one tolerance
 constexpr double k_feature_share = 0.5;  ///< relative to the shortest boundary edge: pairs farther apart are no seam
 constexpr double k_turn_cosine = 0.5;    ///< a facet that turns by more than 60 degrees would be damaged
-constexpr std::uint32_t k_nobody = 0xffffffffu;
 
 struct OpenBorders {
   std::vector<std::uint32_t> halfedges;                ///< half-edges on edges with one facet
@@ -75,7 +74,7 @@ std::size_t split_at_vertices(RepairState& state, double tolerance, const RunCon
   std::map<std::uint32_t, Split> best;  // best split by facet
   for (const std::uint32_t a : borders.vertices) {
     const Vec3& p = state.points[a];
-    Split nearest{.distance = tolerance, .halfedge = k_nobody, .vertex = a, .nearest_point = {}};
+    Split nearest{.distance = tolerance, .halfedge = k_none, .vertex = a, .nearest_point = {}};
     bool is_at_vertex = false;
     tree.for_each_overlap({p, p}, [&](std::uint32_t i) {
       const std::uint32_t h = borders.halfedges[i];
@@ -95,10 +94,10 @@ std::size_t split_at_vertices(RepairState& state, double tolerance, const RunCon
         goes_along |= w == u || w == v || distance(state.points[w], nearest_on_segment(state.points[w], pu, pv)) <= tolerance ||
                       distance(pu, nearest_on_segment(pu, p, state.points[w])) <= tolerance ||
                       distance(pv, nearest_on_segment(pv, p, state.points[w])) <= tolerance;
-      if (goes_along && (d < nearest.distance || nearest.halfedge == k_nobody)) nearest = {d, h, a, nearest_point};
+      if (goes_along && (d < nearest.distance || nearest.halfedge == k_none)) nearest = {d, h, a, nearest_point};
       return true;
     });
-    if (nearest.halfedge == k_nobody || is_at_vertex) continue;
+    if (nearest.halfedge == k_none || is_at_vertex) continue;
     const auto [found, is_new] = best.try_emplace(nearest.halfedge / 3, nearest);
     if (!is_new && nearest.distance < found->second.distance) found->second = nearest;
   }
@@ -166,7 +165,7 @@ std::vector<Pair> join_pairs(RepairState& state, std::vector<Pair> pairs) {
     if (edge.count > 2) crowded_before.insert({edge.low, edge.high});
   const std::size_t n_open = count_open(state);
   while (!pairs.empty()) {
-    std::vector<std::uint32_t> pair_of(state.points.size(), k_nobody);
+    std::vector<std::uint32_t> pair_of(state.points.size(), k_none);
     std::vector<Vec3> points = state.points;
     std::vector<std::uint32_t> target(state.points.size());
     for (std::uint32_t v = 0; v < target.size(); ++v) target[v] = v;
@@ -197,7 +196,7 @@ std::vector<Pair> join_pairs(RepairState& state, std::vector<Pair> pairs) {
       for (const Edge& edge : table.edges()) {
         if (edge.count <= 2 || crowded_before.count({edge.low, edge.high})) continue;
         for (const std::uint32_t v : {edge.low, edge.high})
-          if (pair_of[v] != k_nobody) is_bad[pair_of[v]] = 1;
+          if (pair_of[v] != k_none) is_bad[pair_of[v]] = 1;
       }
     }
     if (std::find(is_bad.begin(), is_bad.end(), 1) == is_bad.end()) {
@@ -217,19 +216,19 @@ std::vector<Pair> join_pairs(RepairState& state, std::vector<Pair> pairs) {
 
 /// Records one change for each run of pairs along an open boundary.
 void note_seams(RepairState& state, const std::vector<Pair>& pairs, const OpenBorders& borders) {
-  std::vector<std::uint32_t> pair_of(borders.neighbours.size(), k_nobody);
+  std::vector<std::uint32_t> pair_of(borders.neighbours.size(), k_none);
   for (std::uint32_t i = 0; i < pairs.size(); ++i) pair_of[pairs[i].a] = pair_of[pairs[i].b] = i;
   DisjointSets seams(pairs.size());
   for (std::uint32_t i = 0; i < pairs.size(); ++i)
     for (const std::uint32_t v : {pairs[i].a, pairs[i].b})
       for (const std::uint32_t w : borders.neighbours[v])
-        if (pair_of[w] != k_nobody) seams.join(i, pair_of[w]);
+        if (pair_of[w] != k_none) seams.join(i, pair_of[w]);
   std::vector<std::vector<std::uint32_t>> facets_of(pairs.size());
   std::vector<double> widest(pairs.size(), 0.0);
   for (std::uint32_t i = 0; i < pairs.size(); ++i) widest[seams.root(i)] = std::max(widest[seams.root(i)], pairs[i].distance);
   for (std::uint32_t t = 0; t < state.facets.size(); ++t)
     for (const std::uint32_t v : state.facets[t])
-      if (v < pair_of.size() && pair_of[v] != k_nobody) facets_of[seams.root(pair_of[v])].push_back(t);
+      if (v < pair_of.size() && pair_of[v] != k_none) facets_of[seams.root(pair_of[v])].push_back(t);
   for (std::uint32_t i = 0; i < pairs.size(); ++i) {
     sort_unique(facets_of[i]);
     state.note(RepairKind::zipped, facets_of[i], widest[i]);

@@ -7,13 +7,12 @@
 #include <algorithm>
 
 #include "geom/math/predicates.h"
+#include "geom/mesh/edit_mesh.h"
 #include "surfmesh/stitch/clean_facets.h"
 #include "surfmesh/stitch/edge_table.h"
 
 namespace sterna::surfmesh {
 namespace {
-
-constexpr std::uint32_t k_no_twin = 0xffffffffu;
 
 /// Error bound for the components of a cross product, relative to the square of the largest edge component. It covers three roundings of 2^-53 in each of two
 /// products, rounded up.
@@ -31,15 +30,17 @@ class FlatFlipper {
  public:
   explicit FlatFlipper(WorkingSurface& surface) : surface_(surface) {
     const EdgeTable edges(surface.facets, surface.points.size());
-    twin_.assign(3 * surface.n_facets(), k_no_twin);
+    Column<TriangleId, TriangleVertices> triangles;
+    triangles.reserve(surface.n_facets());
+    for (const Facet& f : surface.facets) triangles.push_back({VertexId(f[0]), VertexId(f[1]), VertexId(f[2])});
+    Column<HalfedgeId, HalfedgeId> twins(3 * surface.n_facets());
     for (const Edge& edge : edges.edges()) {
       if (edge.count != 2) continue;
-      const auto h = edges.at(edge);
-      twin_[h[0]] = h[1];
-      twin_[h[1]] = h[0];
+      const HalfedgeId h(edges.at(edge)[0]), g(edges.at(edge)[1]);
+      twins[h] = g;
+      twins[g] = h;
     }
-    first_out_.assign(surface.points.size(), k_no_twin);
-    for (std::uint32_t h = 0; h < twin_.size(); ++h) first_out_[from(h)] = h;
+    mesh_ = EditMesh(surface.points.size(), std::move(triangles), std::move(twins));
   }
 
   bool is_flat(std::uint32_t facet) const {
@@ -49,69 +50,32 @@ class FlatFlipper {
 
   /// Flips the long edge of a flat facet if the current state allows it. With `with_flat` the neighbour may be flat, too.
   bool flip(std::uint32_t facet, bool with_flat) {
-    const std::uint32_t h = long_edge(facet);
-    const std::uint32_t g = twin_[h];
-    if (g == k_no_twin) return false;
-    const std::uint32_t p = from(h), q = from(next_halfedge(h)), r = from(previous_halfedge(h)), d = from(previous_halfedge(g));
-    if (r == d || is_edge(r, d)) return false;
-    if (is_flat(g / 3) && !(with_flat && long_edge(g / 3) == g)) return false;
-    // The facets (p, q, r) and (q, p, d) become (r, p, d) and (d, q, r).
-    const std::uint32_t t = h / 3, u = g / 3;
-    const std::uint32_t qr = twin_[next_halfedge(h)], rp = twin_[previous_halfedge(h)];
-    const std::uint32_t pd = twin_[next_halfedge(g)], dq = twin_[previous_halfedge(g)];
-    surface_.facets[t] = {r, p, d};
-    surface_.facets[u] = {d, q, r};
-    surface_.patch[t] = surface_.patch[u];
-    surface_.origin[t] = surface_.origin[u];
-    join(3 * t, rp);
-    join(3 * t + 1, pd);
-    join(3 * t + 2, 3 * u + 2);
-    join(3 * u, dq);
-    join(3 * u + 1, qr);
-    first_out_[r] = 3 * t;
-    first_out_[p] = 3 * t + 1;
-    first_out_[d] = 3 * u;
-    first_out_[q] = 3 * u + 1;
+    const HalfedgeId h = long_edge(facet), g = mesh_.twins[h];
+    if (!g.is_valid()) return false;
+    const VertexId p = mesh_.from(h), q = mesh_.to(h), r = mesh_.apex(h), d = mesh_.apex(g);
+    if (r == d || mesh_.is_edge(r, d)) return false;
+    const std::uint32_t neighbour = triangle_of(g).value();
+    if (is_flat(neighbour) && !(with_flat && long_edge(neighbour) == g)) return false;
+    mesh_.flip(h, {r, p, d}, {d, q, r});
+    surface_.facets[facet] = {r.value(), p.value(), d.value()};
+    surface_.facets[neighbour] = {d.value(), q.value(), r.value()};
+    surface_.patch[facet] = surface_.patch[neighbour];
+    surface_.origin[facet] = surface_.origin[neighbour];
     return true;
   }
 
  private:
-  std::uint32_t from(std::uint32_t h) const { return surface_.facets[h / 3][h % 3]; }
-
-  void join(std::uint32_t h, std::uint32_t g) {
-    twin_[h] = g;
-    if (g != k_no_twin) twin_[g] = h;
-  }
-
   /// Returns the half-edge between whose ends the third vertex lies.
-  std::uint32_t long_edge(std::uint32_t facet) const {
-    for (std::uint32_t k = 0; k < 3; ++k) {
-      const std::uint32_t h = 3 * facet + k;
-      if (is_between(surface_.points[from(previous_halfedge(h))], surface_.points[from(h)], surface_.points[from(next_halfedge(h))])) return h;
-    }
-    return 3 * facet;
-  }
-
-  /// Returns true if a facet contains both vertices. The fan of `v` is traversed in both directions, because a boundary may interrupt it.
-  bool is_edge(std::uint32_t v, std::uint32_t w) const {
-    const std::uint32_t start = first_out_[v];
-    const auto has_w = [&](std::uint32_t h) { return from(next_halfedge(h)) == w || from(previous_halfedge(h)) == w; };
-    std::uint32_t h = start;
-    do {
-      if (has_w(h)) return true;
-      h = twin_[previous_halfedge(h)];
-    } while (h != k_no_twin && h != start);
-    if (h == start) return false;
-    for (std::uint32_t g = twin_[start]; g != k_no_twin; g = twin_[h]) {
-      h = next_halfedge(g);
-      if (has_w(h)) return true;
-    }
-    return false;
+  HalfedgeId long_edge(std::uint32_t facet) const {
+    const HalfedgeId first = halfedge(TriangleId(facet), 0);
+    const auto point = [&](VertexId v) { return surface_.points[v.index()]; };
+    for (const HalfedgeId h : {first, next(first), previous(first)})
+      if (is_between(point(mesh_.apex(h)), point(mesh_.from(h)), point(mesh_.to(h)))) return h;
+    return first;
   }
 
   WorkingSurface& surface_;
-  std::vector<std::uint32_t> twin_;
-  std::vector<std::uint32_t> first_out_;
+  EditMesh mesh_;  ///< the facets of the surface
 };
 
 }  // namespace

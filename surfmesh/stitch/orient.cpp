@@ -14,7 +14,6 @@ namespace {
 
 /// A winding number is an integer except for rounding. Half a turn separates 0 from +-1.
 constexpr double k_half_turn = 0.5;
-constexpr std::uint32_t k_none = 0xffffffffu;
 
 struct Component {
   std::vector<std::uint32_t> facets;

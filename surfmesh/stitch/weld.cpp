@@ -22,20 +22,19 @@ constexpr double k_weld_single = 2.5e-7;
 /// Largest tolerance that a user may give, relative to the body length. With a larger one no surface would remain, and the candidate pairs would exceed the
 /// memory.
 constexpr double k_max_weld = 0.02;
-constexpr std::uint32_t k_no_point = 0xffffffffu;
 
 /// Numbers points by value, using open addressing. Points are numbered in the order of their first occurrence, so the numbers depend only on the order of the
 /// input.
 class PointIndex {
  public:
-  explicit PointIndex(std::size_t n) : slots_(std::bit_ceil(2 * n + 2), k_no_point) {}
+  explicit PointIndex(std::size_t n) : slots_(std::bit_ceil(2 * n + 2), k_none) {}
 
   std::uint32_t find_or_add(Vec3 p, std::vector<Vec3>& points) {
     p += Vec3{};  // -0 becomes +0
     std::size_t slot = hash(p) & (slots_.size() - 1);
-    while (slots_[slot] != k_no_point && !(points[slots_[slot]] == p)) slot = (slot + 1) & (slots_.size() - 1);
-    if (slots_[slot] == k_no_point) {
-      if (points.size() >= k_no_point) throw_id_overflow(points.size());
+    while (slots_[slot] != k_none && !(points[slots_[slot]] == p)) slot = (slot + 1) & (slots_.size() - 1);
+    if (slots_[slot] == k_none) {
+      if (points.size() >= k_none) throw_id_overflow(points.size());
       slots_[slot] = static_cast<std::uint32_t>(points.size());
       points.push_back(p);
     }
@@ -144,13 +143,13 @@ WorkingSurface weld_exact(const std::vector<SurfaceSoup>& soups, const StitchOpt
   PointIndex index(n_points);
   for (std::uint32_t s = 0; s < soups.size(); ++s) {
     const SurfaceSoup& soup = soups[s];
-    std::vector<std::uint32_t> soup2surface(soup.points.size(), k_no_point);
+    std::vector<std::uint32_t> soup2surface(soup.points.size(), k_none);
     for (std::uint32_t t = 0; t < soup.triangles.size(); ++t) {
       Facet facet{};
       for (std::size_t k = 0; k < 3; ++k) {
         const std::uint32_t v = soup.triangles[t][k];
         if (v >= soup.points.size()) throw_malformed(soup, t, "refers to vertex " + std::to_string(v) + " of " + std::to_string(soup.points.size()));
-        if (soup2surface[v] == k_no_point) {
+        if (soup2surface[v] == k_none) {
           if (!is_finite(soup.points[v])) throw_malformed(soup, t, "has a coordinate that is not a finite number");
           soup2surface[v] = index.find_or_add(soup.points[v], surface.points);
         }
@@ -162,7 +161,7 @@ WorkingSurface weld_exact(const std::vector<SurfaceSoup>& soups, const StitchOpt
       surface.patch.push_back(surface.first_patch[s] + soup.patch[t]);
       surface.origin.push_back({s, t});
     }
-    report.n_unused_vertices += std::count(soup2surface.begin(), soup2surface.end(), k_no_point);
+    report.n_unused_vertices += std::count(soup2surface.begin(), soup2surface.end(), k_none);
   }
   report.n_welded_exact = report.n_vertices_read - report.n_unused_vertices - static_cast<std::int64_t>(surface.points.size());
   return surface;
@@ -213,7 +212,7 @@ void separate_parts(WorkingSurface& surface) {
   const EdgeTable edges(surface.facets, surface.points.size());
   const Parts parts = connected_parts(surface.n_facets(), edges);
   if (parts.count < 2) return;
-  std::vector<std::uint32_t> owner(surface.points.size(), k_no_point);
+  std::vector<std::uint32_t> owner(surface.points.size(), k_none);
   struct Copy {
     std::uint32_t vertex, part, facet, corner;
     auto key() const { return std::array{vertex, part, facet, corner}; }
@@ -222,7 +221,7 @@ void separate_parts(WorkingSurface& surface) {
   for (std::uint32_t t = 0; t < surface.n_facets(); ++t) {
     for (std::uint32_t k = 0; k < 3; ++k) {
       const std::uint32_t v = surface.facets[t][k];
-      if (owner[v] == k_no_point) owner[v] = parts.part[t];
+      if (owner[v] == k_none) owner[v] = parts.part[t];
       if (owner[v] != parts.part[t]) copies.push_back({v, parts.part[t], t, k});
     }
   }

@@ -48,6 +48,7 @@ constexpr double k_smooth_turn = 0.5;
 
 using Facets = std::vector<std::array<std::uint32_t, 3>>;
 using Ends = std::array<std::uint32_t, 2>;
+using StripEnds = std::array<VertexId, 2>;  ///< vertices of a StripMesh
 
 TriMesh segments_mesh(const std::vector<std::array<Vec3, 2>>& lines) {
   TriMesh mesh;
@@ -169,30 +170,31 @@ class WrapFitter {
   }
 
   StripMesh strip_mesh(const TriangleTree& near) const {
-    std::vector<StripTriangle> triangles;
+    Column<TriangleId, StripTriangle> triangles;
     triangles.reserve(now_.triangles.size());
     for (std::size_t t = 0; t < now_.triangles.size(); ++t) {
       const auto& v = now_.triangles[t];
-      triangles.push_back({v, now_.patch[t], normalized(area_vector(now_.points[v[0]], now_.points[v[1]], now_.points[v[2]]))});
+      triangles.push_back(
+          {{VertexId(v[0]), VertexId(v[1]), VertexId(v[2])}, now_.patch[t], normalized(area_vector(now_.points[v[0]], now_.points[v[1]], now_.points[v[2]]))});
     }
-    return StripMesh(now_.points, std::move(triangles), {.max_bend = feature_angle_}, near);
+    return StripMesh(Column<VertexId, Vec3>(now_.points), std::move(triangles), {.max_bend = feature_angle_}, near);
   }
 
   /// Takes over the remaining mesh. Returns the new number of each of its vertices.
-  std::vector<std::uint32_t> take(const StripMesh& mesh) {
+  Column<VertexId, std::uint32_t> take(const StripMesh& mesh) {
     FittedWrap next;
-    constexpr std::uint32_t k_none = 0xffffffffu;
-    std::vector<std::uint32_t> number(mesh.points.size(), k_none);
+    Column<VertexId, std::uint32_t> number(mesh.points.size(), k_none);
     now_.tie.resize(mesh.points.size(), LineTie::none);
-    for (std::uint32_t t = 0; t < mesh.triangles.size(); ++t) {
+    for (const TriangleId t : mesh.triangles.ids()) {
       if (!mesh.is_alive[t]) continue;
       std::array<std::uint32_t, 3> v{};
       for (std::size_t k = 0; k < 3; ++k) {
-        std::uint32_t& mine = number[mesh.triangles[t].v[k]];
+        const VertexId old = mesh.triangles[t].v[k];
+        std::uint32_t& mine = number[old];
         if (mine == k_none) {
           mine = static_cast<std::uint32_t>(next.points.size());
-          next.points.push_back(mesh.points[mesh.triangles[t].v[k]]);
-          next.tie.push_back(now_.tie[mesh.triangles[t].v[k]]);
+          next.points.push_back(mesh.points[old]);
+          next.tie.push_back(now_.tie[old.index()]);
         }
         v[k] = mine;
       }
@@ -223,10 +225,10 @@ class WrapFitter {
     // All edges are first split in the middle. Then all new vertices move at once, so that no triangle has to turn while only some of its vertices are in
     // place.
     StripMesh mesh = strip_mesh(surface_.facets());
-    std::vector<std::pair<std::uint32_t, std::size_t>> made;
+    std::vector<std::pair<VertexId, std::size_t>> made;
     for (const auto& [key, e] : order)
-      if (const auto m = mesh.split(edges[e][0], edges[e][1])) made.push_back({*m, e});
-    const std::vector<std::uint32_t> number = take(mesh);
+      if (const VertexId m = mesh.split(VertexId(edges[e][0]), VertexId(edges[e][1])); m.is_valid()) made.push_back({m, e});
+    const Column<VertexId, std::uint32_t> number = take(mesh);
     std::vector<Vec3> targets = now_.points;
     for (const auto& [m, e] : made) targets[number[m]] = points[e].at;
     ClearMove moved = move_clear(now_.points, now_.triangles, targets, {.max_turn = k_line_turn, .least_angle = k_line_angle}, context_);
@@ -333,18 +335,18 @@ class WrapFitter {
 
   // ---- Better triangles ----
 
-  bool may_go(std::uint32_t from, std::uint32_t to) const {
-    return now_.tie[from] == LineTie::none || (now_.tie[from] == LineTie::line && now_.tie[to] != LineTie::none);
-  }
+  LineTie tie(VertexId v) const { return now_.tie[v.index()]; }
 
-  bool try_collapse(StripMesh& mesh, std::uint32_t from, std::uint32_t to, double least_angle) const {
+  bool may_go(VertexId from, VertexId to) const { return tie(from) == LineTie::none || (tie(from) == LineTie::line && tie(to) != LineTie::none); }
+
+  bool try_collapse(StripMesh& mesh, VertexId from, VertexId to, double least_angle) const {
     if (!may_go(from, to)) return false;
     return mesh.collapse(from, to, {.least_angle = least_angle, .longest = k_long_edge * sizes_.edge, .tolerance = sizes_.tolerance, .merge = 0.0});
   }
 
   /// Collapses an edge along a line. Adjacent triangles do not restrict this merge, as long as nothing leaves the input, inverts or crosses.
-  bool try_along_line(StripMesh& mesh, std::uint32_t from, std::uint32_t to) const {
-    if (now_.tie[from] != LineTie::line || now_.tie[to] == LineTie::none) return false;
+  bool try_along_line(StripMesh& mesh, VertexId from, VertexId to) const {
+    if (tie(from) != LineTie::line || tie(to) == LineTie::none) return false;
     const Vec3 &a = mesh.points[from], &b = mesh.points[to];
     if (!surface_.nearest_line(0.5 * (a + b), 0.05 * distance(a, b)).triangle.is_valid()) return false;
     return mesh.collapse(
@@ -352,7 +354,7 @@ class WrapFitter {
         {.least_angle = 0.0, .longest = k_long_edge * sizes_.edge, .tolerance = sizes_.tolerance, .merge = 0.05 * sizes_.edge, .is_one_location = true});
   }
 
-  bool try_flip(StripMesh& mesh, std::uint32_t a, std::uint32_t b) const { return !mesh.is_kept_edge(a, b) && mesh.flip(a, b, k_gain, sizes_.tolerance); }
+  bool try_flip(StripMesh& mesh, VertexId a, VertexId b) const { return !mesh.is_kept_edge(a, b) && mesh.flip(a, b, k_gain, sizes_.tolerance); }
 
   void collapse_short(StripMesh& mesh) const {
     std::vector<std::pair<double, Ends>> order;
@@ -364,10 +366,10 @@ class WrapFitter {
     std::size_t n = 0;
     for (const auto& [length, e] : order) {
       if (++n % 1024 == 0) context_.check_stop();
-      if (!mesh.triangle_at(e[0], e[1])) continue;
+      VertexId from(e[0]), to(e[1]);
+      if (!mesh.triangle_at(from, to).is_valid()) continue;
       // The end that is less tied to a line or corner is removed.
-      const bool is_second_freer = now_.tie[e[1]] < now_.tie[e[0]];
-      const std::uint32_t from = e[is_second_freer ? 1 : 0], to = e[is_second_freer ? 0 : 1];
+      if (tie(to) < tie(from)) std::swap(from, to);
       if (!try_collapse(mesh, from, to, k_collapse_angle)) try_collapse(mesh, to, from, k_collapse_angle);
     }
   }
@@ -387,15 +389,15 @@ class WrapFitter {
     }
     std::sort(order.begin(), order.end());
     for (const auto& [length, e] : order)
-      if (mesh.triangle_at(e[0], e[1]))
-        mesh.collapse(e[0], e[1],
+      if (const VertexId from(e[0]), to(e[1]); mesh.triangle_at(from, to).is_valid())
+        mesh.collapse(from, to,
                       {.least_angle = 0.0, .longest = k_long_edge * sizes_.edge, .tolerance = sizes_.tolerance, .merge = k_merged_edge * sizes_.edge});
   }
 
   /// Flips edges if that increases the smallest angle of the two triangles.
   void flip_all(StripMesh& mesh) const {
-    std::vector<std::pair<double, std::uint32_t>> order;
-    for (std::uint32_t t = 0; t < mesh.triangles.size(); ++t)
+    std::vector<std::pair<double, TriangleId>> order;
+    for (const TriangleId t : mesh.triangles.ids())
       if (mesh.is_alive[t]) order.push_back({mesh.min_angle(t), t});
     std::sort(order.begin(), order.end());
     std::size_t n = 0;
@@ -403,7 +405,7 @@ class WrapFitter {
       if (++n % 1024 == 0) context_.check_stop();
       if (!mesh.is_alive[t]) continue;
       const auto v = mesh.triangles[t].v;
-      std::array<std::pair<double, Ends>, 3> edges;
+      std::array<std::pair<double, StripEnds>, 3> edges;
       for (std::size_t k = 0; k < 3; ++k) edges[k] = {-distance(mesh.points[v[k]], mesh.points[v[(k + 1) % 3]]), {v[k], v[(k + 1) % 3]}};
       std::sort(edges.begin(), edges.end());
       for (std::size_t k = 0; k < 2; ++k)
@@ -411,18 +413,18 @@ class WrapFitter {
     }
   }
 
-  static bool would_gain(const StripMesh& mesh, const Ends& e) {
-    const auto left = mesh.triangle_at(e[0], e[1]), right = mesh.triangle_at(e[1], e[0]);
-    if (!left || !right) return false;
-    const std::uint32_t c = mesh.opposite(*left, e[0], e[1]), d = mesh.opposite(*right, e[0], e[1]);
-    return std::min(mesh.min_angle({e[0], d, c}), mesh.min_angle({d, e[1], c})) > std::min(mesh.min_angle(*left), mesh.min_angle(*right)) + k_gain;
+  static bool would_gain(const StripMesh& mesh, const StripEnds& e) {
+    const TriangleId left = mesh.triangle_at(e[0], e[1]), right = mesh.triangle_at(e[1], e[0]);
+    if (!left.is_valid() || !right.is_valid()) return false;
+    const VertexId c = mesh.opposite(left, e[0], e[1]), d = mesh.opposite(right, e[0], e[1]);
+    return std::min(mesh.min_angle({e[0], d, c}), mesh.min_angle({d, e[1], c})) > std::min(mesh.min_angle(left), mesh.min_angle(right)) + k_gain;
   }
 
   /// Flips the longest edge of a nearly flat triangle. Such a triangle has no normal of its own, so the normal of its neighbour is used.
-  bool try_flip_sliver(StripMesh& mesh, std::uint32_t t, std::uint32_t a, std::uint32_t b) const {
-    const auto left = mesh.triangle_at(a, b), right = mesh.triangle_at(b, a);
-    if (!left || !right) return false;
-    const std::uint32_t other = *left == t ? *right : *left;
+  bool try_flip_sliver(StripMesh& mesh, TriangleId t, VertexId a, VertexId b) const {
+    const TriangleId left = mesh.triangle_at(a, b), right = mesh.triangle_at(b, a);
+    if (!left.is_valid() || !right.is_valid()) return false;
+    const TriangleId other = left == t ? right : left;
     const Vec3 own = mesh.triangles[t].normal;
     const std::uint32_t region = mesh.triangles[t].region;
     mesh.triangles[t].normal = mesh.triangles[other].normal;
@@ -435,15 +437,15 @@ class WrapFitter {
 
   void remove_poor(StripMesh& mesh) const {
     for (int sweep = 0; sweep < 2; ++sweep) {
-      std::vector<std::pair<double, std::uint32_t>> poor;
-      for (std::uint32_t t = 0; t < mesh.triangles.size(); ++t)
+      std::vector<std::pair<double, TriangleId>> poor;
+      for (const TriangleId t : mesh.triangles.ids())
         if (mesh.is_alive[t] && mesh.min_angle(t) < k_poor) poor.push_back({mesh.min_angle(t), t});
       std::sort(poor.begin(), poor.end());
       bool has_changed = false;
       for (const auto& [angle, t] : poor) {
         if (!mesh.is_alive[t]) continue;
         const auto v = mesh.triangles[t].v;
-        std::array<std::pair<double, Ends>, 3> edges;
+        std::array<std::pair<double, StripEnds>, 3> edges;
         for (std::size_t k = 0; k < 3; ++k) edges[k] = {distance(mesh.points[v[k]], mesh.points[v[(k + 1) % 3]]), {v[k], v[(k + 1) % 3]}};
         std::sort(edges.begin(), edges.end());
         bool is_done = try_flip(mesh, edges[2].second[0], edges[2].second[1]) || try_flip(mesh, edges[1].second[0], edges[1].second[1]);

@@ -51,11 +51,11 @@ std::vector<std::uint32_t> patches_of(const std::vector<Vec3>& points, const std
   }
   // Islands are assigned to the neighbour with the longest common border, smallest island first.
   for (int round = 0; round < k_majority_rounds; ++round) {
-    std::vector<std::uint32_t> region(n, 0xffffffffu), stack;
+    std::vector<std::uint32_t> region(n, k_none), stack;
     std::vector<double> region_area;
     std::vector<std::uint32_t> region_patch;
     for (std::size_t s = 0; s < n; ++s) {
-      if (region[s] != 0xffffffffu) continue;
+      if (region[s] != k_none) continue;
       const auto r = static_cast<std::uint32_t>(region_area.size());
       region_area.push_back(0.0);
       region_patch.push_back(patch[s]);
@@ -67,7 +67,7 @@ std::vector<std::uint32_t> patches_of(const std::vector<Vec3>& points, const std
         region_area[r] += area[t];
         for (std::size_t k = 0; k < 3; ++k) {
           const std::size_t o = neighbour(t, k);
-          if (region[o] != 0xffffffffu || patch[o] != patch[t]) continue;
+          if (region[o] != k_none || patch[o] != patch[t]) continue;
           region[o] = r;
           stack.push_back(static_cast<std::uint32_t>(o));
         }

@@ -37,10 +37,9 @@ struct PartBorders {
 
 PartBorders borders_of(const PatchPart& part, const Topology& topology, const Column<PatchId, std::uint8_t>& has_layer, const TriMesh& boundary) {
   PartBorders borders;
-  constexpr std::uint32_t k_no_point = 0xffffffffu;
-  Column<VertexId, std::uint32_t> number(boundary.n_vertices(), k_no_point);
+  Column<VertexId, std::uint32_t> number(boundary.n_vertices(), k_none);
   const auto number_of = [&](VertexId v) {
-    if (number[v] == k_no_point) {
+    if (number[v] == k_none) {
       number[v] = static_cast<std::uint32_t>(borders.vertices.size());
       borders.vertices.push_back(v);
       borders.region.points.push_back(boundary.points[v]);

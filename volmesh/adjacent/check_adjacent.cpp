@@ -12,8 +12,6 @@ struct Half {
   friend bool operator<(const Half& a, const Half& b) { return a.from != b.from ? a.from < b.from : a.to != b.to ? a.to < b.to : a.id < b.id; }
 };
 
-constexpr std::uint32_t k_no_half = ~0u;
-
 std::uint32_t next(std::uint32_t h) { return h % 3 == 2 ? h - 2 : h + 1; }
 
 /// Half-edges, found by their ends. A valid triangulation has only one for each pair of ends.
@@ -28,7 +26,7 @@ class HalfTable {
   std::span<const Half> halves() const { return halves_; }
   std::uint32_t find(std::uint32_t from, std::uint32_t to) const {
     const auto at = std::lower_bound(halves_.begin(), halves_.end(), Half{from, to, 0});
-    return at != halves_.end() && at->from == from && at->to == to ? at->id : k_no_half;
+    return at != halves_.end() && at->from == from && at->to == to ? at->id : k_none;
   }
 
  private:
@@ -59,7 +57,7 @@ void count_topology(const std::vector<std::uint32_t>& twin, AdjacentCheck& check
   Groups components(n_halves / 3), fans(n_halves);
   std::int64_t n_border = 0;
   for (std::uint32_t h = 0; h < n_halves; ++h) {
-    if (twin[h] == k_no_half) {
+    if (twin[h] == k_none) {
       ++n_border;
       continue;
     }
@@ -68,13 +66,13 @@ void count_topology(const std::vector<std::uint32_t>& twin, AdjacentCheck& check
   }
   std::vector<std::uint8_t> is_seen(n_halves, 0);
   for (std::uint32_t first = 0; first < n_halves; ++first) {
-    if (twin[first] != k_no_half || is_seen[first] != 0) continue;
+    if (twin[first] != k_none || is_seen[first] != 0) continue;
     ++check.n_loops;
     for (std::uint32_t h = first; is_seen[h] == 0;) {
       is_seen[h] = 1;
       // The search turns around the end of h to the outgoing border half-edge in the same fan.
       h = next(h);
-      while (twin[h] != k_no_half) h = next(twin[h]);
+      while (twin[h] != k_none) h = next(twin[h]);
     }
   }
   check.n_components = components.count();
@@ -96,7 +94,7 @@ AdjacentCheck check_adjacent(std::span<const AdjacentEdge> edges, std::span<cons
   std::vector<AdjacentEdge> border;
   for (const Half& half : halves) {
     twin[half.id] = table.find(half.to, half.from);
-    if (twin[half.id] == k_no_half) border.push_back({half.from, half.to});
+    if (twin[half.id] == k_none) border.push_back({half.from, half.to});
   }
   // Both lists are in ascending order.
   std::set_difference(required.begin(), required.end(), border.begin(), border.end(), std::back_inserter(check.missing));

@@ -287,10 +287,10 @@ class Closer {
     region.surface = domain_.constraints.surfaces[static_cast<std::size_t>(end.surface)].get();
     region.original = &original;
     region.name = name(end.patch);
-    Column<VertexId, std::uint32_t> local(result_.mesh.n_vertices(), 0xffffffffu);
+    Column<VertexId, std::uint32_t> local(result_.mesh.n_vertices(), k_none);
     const auto local_of = [&](VertexId v) {
       std::uint32_t& i = local[v];
-      if (i == 0xffffffffu) {
+      if (i == k_none) {
         i = static_cast<std::uint32_t>(made->vertices.size());
         made->vertices.push_back(v);
         region.points.push_back(result_.mesh.points[v]);

@@ -42,8 +42,6 @@ class Partners {
     return best;
   }
 
-  static constexpr std::uint32_t k_none = ~0u;
-
  private:
   /// Projection to a direction on which the points of sides along coordinate axes differ.
   static double key(const Point& p) { return p.x + 0.7 * p.y + 0.4 * p.z; }
@@ -86,13 +84,13 @@ AdjacentTriangles copy_translated(const AdjacentRegion& from, const AdjacentTria
                                   double body_length) {
   const double tolerance = k_periodic_tolerance * body_length;
   const Partners partners(to, tolerance);
-  std::vector<std::uint32_t> partner(from.points.size(), Partners::k_none);
+  std::vector<std::uint32_t> partner(from.points.size(), k_none);
   std::vector<std::uint8_t> is_taken(to.points.size(), 0);
   ErrorInfo info = adjacent_error(to, ErrorCode::bad_argument,
                                   "loops do not match the periodic partner \"" + from.name + "\" within " + in_metres(tolerance, k_adjacent_digits));
   for (const std::uint32_t i : loop_indices(from)) {
     partner[i] = partners.find(from.points[i] + translation);
-    if (partner[i] == Partners::k_none) info.add_location(from.points[i] + translation, "point of the partner without a point of this patch");
+    if (partner[i] == k_none) info.add_location(from.points[i] + translation, "point of the partner without a point of this patch");
     else if (is_taken[partner[i]]++ != 0) info.add_location(to.points[partner[i]], "two points of the partner match one point of this patch");
   }
   for (const std::uint32_t i : loop_indices(to))

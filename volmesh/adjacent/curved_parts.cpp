@@ -34,7 +34,6 @@ constexpr std::array<Reach, 6> k_reaches = {{{3.0, 4}, {3.0, 2}, {1.5, 2}, {1.0,
 constexpr double k_curvature_angle = 12.0 * std::numbers::pi / 180.0;
 /// Rad: edges of the original with a smaller turn count as flat.
 constexpr double k_flat_angle = 1e-6;
-constexpr std::uint32_t k_no_part = ~0u;
 
 struct PartHalf {
   std::uint32_t from, to, id;
@@ -104,7 +103,7 @@ class CurvedEndSplitter {
   TriangleTree tree_;
   std::size_t n_;
   std::vector<std::uint32_t> twin_;  ///< twin of each half-edge 3 t + c
-  /// For each vertex the point of the region at its location, or later its number among the new points; k_no_part: not needed yet.
+  /// For each vertex the point of the region at its location, or later its number among the new points; k_none: not needed yet.
   std::vector<std::uint32_t> point_;
   std::vector<std::uint8_t> is_replaced_;  ///< border half-edges of the original that are no edges of the region
   std::vector<AdjacentEdge> footprints_;   ///< edges of the region that are not edges of the original
@@ -125,7 +124,7 @@ void CurvedEndSplitter::match() {
     const Point &a = region_.points[i], &b = region_.points[j];
     return less(a, b) || (!less(b, a) && i < j);
   });
-  point_.assign(mesh_.n_vertices(), k_no_part);
+  point_.assign(mesh_.n_vertices(), k_none);
   for (const VertexId v : mesh_.points.ids()) {
     const auto at = std::lower_bound(order.begin(), order.end(), mesh_.points[v], [&](std::uint32_t i, const Point& p) { return less(region_.points[i], p); });
     if (at != order.end() && region_.points[*at] == mesh_.points[v]) point_[v.index()] = *at;
@@ -134,7 +133,7 @@ void CurvedEndSplitter::match() {
   halves.reserve(3 * n_);
   for (std::uint32_t h = 0; h < 3 * n_; ++h) halves.push_back({from(h), to(h), h});
   std::sort(halves.begin(), halves.end());
-  twin_.assign(3 * n_, k_no_part);
+  twin_.assign(3 * n_, k_none);
   for (const PartHalf& half : halves) {
     const auto at = std::lower_bound(halves.begin(), halves.end(), PartHalf{half.to, half.from, 0});
     if (at != halves.end() && at->from == half.to && at->to == half.from) twin_[half.id] = at->id;
@@ -143,7 +142,7 @@ void CurvedEndSplitter::match() {
   std::sort(edges.begin(), edges.end());
   is_replaced_.assign(3 * n_, 0);
   for (std::uint32_t h = 0; h < 3 * n_; ++h) {
-    if (twin_[h] != k_no_part) continue;
+    if (twin_[h] != k_none) continue;
     const AdjacentEdge edge{point_[from(h)], point_[to(h)]};
     if (std::binary_search(edges.begin(), edges.end(), edge)) border.push_back(edge);
     else is_replaced_[h] = 1;
@@ -153,17 +152,17 @@ void CurvedEndSplitter::match() {
 }
 
 void CurvedEndSplitter::find_pieces() {
-  piece_.assign(n_, k_no_part);
+  piece_.assign(n_, k_none);
   std::vector<std::uint32_t> stack;
   for (std::uint32_t seed = 0; seed < n_; ++seed) {
-    if (piece_[seed] != k_no_part) continue;
+    if (piece_[seed] != k_none) continue;
     piece_[seed] = n_pieces_;
     stack.push_back(seed);
     while (!stack.empty()) {
       const std::uint32_t t = stack.back();
       stack.pop_back();
       for (std::uint32_t h = 3 * t; h < 3 * t + 3; ++h) {
-        if (twin_[h] == k_no_part || piece_[twin_[h] / 3] != k_no_part) continue;
+        if (twin_[h] == k_none || piece_[twin_[h] / 3] != k_none) continue;
         if (dot(normal(t), normal(twin_[h] / 3)) < k_crease) continue;
         piece_[twin_[h] / 3] = n_pieces_;
         stack.push_back(twin_[h] / 3);
@@ -216,7 +215,7 @@ std::vector<std::vector<TriangleId>> CurvedEndSplitter::connected(const std::vec
       stack.pop_back();
       groups.back().push_back(TriangleId(t));
       for (std::uint32_t h = 3 * t; h < 3 * t + 3; ++h) {
-        if (twin_[h] == k_no_part) continue;
+        if (twin_[h] == k_none) continue;
         const std::uint32_t other = twin_[h] / 3;
         if (is_seen[other] != 0 || state_[other] != state || piece_[other] != piece_[seed]) continue;
         is_seen[other] = 1;
@@ -329,7 +328,7 @@ void CurvedEndSplitter::drop_covered(const std::vector<std::uint32_t>& triangles
     Side side;
     for (const TriangleId t : group) {
       bool is_beside = false;
-      for (std::uint32_t h = 3 * t.value(); h < 3 * t.value() + 3; ++h) is_beside = is_beside || (twin_[h] != k_no_part && state_[twin_[h] / 3] == State::cut);
+      for (std::uint32_t h = 3 * t.value(); h < 3 * t.value() + 3; ++h) is_beside = is_beside || (twin_[h] != k_none && state_[twin_[h] / 3] == State::cut);
       if (!is_beside) continue;
       if (const Side here = side_of(t.value()); here.distance2 < side.distance2) side = here;
     }
@@ -339,7 +338,7 @@ void CurvedEndSplitter::drop_covered(const std::vector<std::uint32_t>& triangles
 }
 
 std::uint32_t CurvedEndSplitter::number_of(std::uint32_t vertex) {
-  if (point_[vertex] == k_no_part) {
+  if (point_[vertex] == k_none) {
     point_[vertex] = static_cast<std::uint32_t>(region_.points.size() + result_.new_points.size());
     result_.new_points.push_back(mesh_.points[VertexId(vertex)]);
   }
@@ -363,8 +362,8 @@ AdjacentPart CurvedEndSplitter::make_part(const std::vector<TriangleId>& cut) {
     for (const Point& p : corners(mesh_, t)) box.add(p);
     for (std::uint32_t h = 3 * t.value(); h < 3 * t.value() + 3; ++h) {
       if (is_replaced_[h] != 0) continue;
-      const bool is_inner = twin_[h] != k_no_part && state_[twin_[h] / 3] == State::cut && piece_[twin_[h] / 3] == piece_[t.index()];
-      const bool is_covered = twin_[h] != k_no_part && state_[twin_[h] / 3] == State::covered;
+      const bool is_inner = twin_[h] != k_none && state_[twin_[h] / 3] == State::cut && piece_[twin_[h] / 3] == piece_[t.index()];
+      const bool is_covered = twin_[h] != k_none && state_[twin_[h] / 3] == State::covered;
       if (!is_inner && !is_covered) part.edges.push_back({number_of(from(h)), number_of(to(h))});
     }
     add_curvature_sizes(t, part);
@@ -377,7 +376,7 @@ AdjacentPart CurvedEndSplitter::make_part(const std::vector<TriangleId>& cut) {
 void CurvedEndSplitter::add_curvature_sizes(TriangleId t, AdjacentPart& part) const {
   double size = std::numeric_limits<double>::infinity();
   for (std::uint32_t h = 3 * t.value(); h < 3 * t.value() + 3; ++h) {
-    if (twin_[h] == k_no_part || piece_[twin_[h] / 3] != piece_[t.index()]) continue;
+    if (twin_[h] == k_none || piece_[twin_[h] / 3] != piece_[t.index()]) continue;
     const double angle = angle_between(normal(t.value()), normal(twin_[h] / 3));
     if (angle < k_flat_angle) continue;
     const Point &a = mesh_.points[VertexId(from(h))], &b = mesh_.points[VertexId(to(h))];
@@ -392,7 +391,7 @@ void CurvedEndSplitter::add_curvature_sizes(TriangleId t, AdjacentPart& part) co
 }
 
 void CurvedEndSplitter::assign_footprints(std::vector<AdjacentPart>& parts) {
-  std::vector<std::uint32_t> part_of(n_, k_no_part);
+  std::vector<std::uint32_t> part_of(n_, k_none);
   for (std::uint32_t i = 0; i < parts.size(); ++i)
     for (const TriangleId t : parts[i].triangles) part_of[t.index()] = i;
   for (std::size_t e = 0; e < footprints_.size(); ++e) parts[part_of[footprint_triangle_[e]]].edges.push_back(footprints_[e]);

@@ -14,7 +14,6 @@ namespace {
 
 constexpr double k_margin = 0.25;  ///< body lengths: smallest distance between wall and sphere, enough for the layer and a few tetrahedra
 constexpr std::size_t k_most_triangles = 20'000'000;
-constexpr std::uint32_t k_not_made = 0xffffffff;
 
 /// Regular icosahedron with the coordinates 0, +-1 and +-golden ratio. Faces are counter-clockwise as seen from outside.
 const double k_golden = (1.0 + std::sqrt(5.0)) / 2.0;
@@ -42,7 +41,7 @@ class Subdivision {
  public:
   explicit Subdivision(std::uint32_t f) : f_(f) {
     for (const Vec3& corner : k_corners) points_.push_back(normalized(corner));
-    for (auto& row : first_on_edge_) row.fill(k_not_made);
+    for (auto& row : first_on_edge_) row.fill(k_none);
     for (const auto& face : k_faces) split(face);
   }
   const std::vector<Vec3>& points() const { return points_; }
@@ -59,7 +58,7 @@ class Subdivision {
     if (i == f_) return b;
     if (a > b) return on_edge(b, a, f_ - i);
     std::uint32_t& first = first_on_edge_[a][b];
-    if (first == k_not_made) {
+    if (first == k_none) {
       first = static_cast<std::uint32_t>(points_.size());
       for (std::uint32_t k = 1; k < f_; ++k) add(static_cast<double>(f_ - k) * k_corners[a] + static_cast<double>(k) * k_corners[b]);
     }

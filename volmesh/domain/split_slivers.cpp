@@ -12,6 +12,7 @@
 
 #include "geom/base/parallel.h"
 #include "geom/math/measures.h"
+#include "geom/mesh/edit_mesh.h"
 #include "geom/mesh/find_crossings.h"
 #include "geom/mesh/topology.h"
 
@@ -37,18 +38,7 @@ constexpr int k_sliver_passes = 6;    ///< the first pass only flips edges; each
 constexpr double k_sharper = 1.1;     ///< largest factor by which a bisection may increase a sliver's cotangent
 constexpr double k_endless_cotangent = 1e300;
 
-using FaceId = std::uint32_t;
-/// Number of a side, 3 face + corner: the side from that corner to the next one.
-using SideId = std::uint32_t;
-
-FaceId face_of(SideId s) { return s / 3; }
-SideId side_after(SideId s) { return s % 3 == 2 ? s - 2 : s + 1; }
-SideId side_before(SideId s) { return s % 3 == 0 ? s + 2 : s - 1; }
-SideId side_at(FaceId f, std::uint32_t k) { return 3 * f + k; }
-
 struct WallFace {
-  std::array<VertexId, 3> corners;
-  std::array<SideId, 3> twins;
   PatchId patch;
   TriangleId source;
   bool has_layer = false;
@@ -83,23 +73,17 @@ class SliverSplitter {
         context_(context),
         limit_(1.0 / std::tan(options.split_needles)),
         flat_cosine_(std::cos(options.flip_angle)),
+        mesh_(mesh, topology),
         points_(mesh.points),
         is_locked_(is_locked) {
     faces_.resize(mesh.n_triangles());
     parallel_for(context, faces_.size(), [&](std::size_t f) {
       const TriangleId t(f);
-      WallFace& face = faces_[f];
-      face = {.corners = mesh.triangles[t],
-              .twins = {},
-              .patch = mesh.triangle_patch[t],
-              .source = t,
-              .has_layer = has_layer[mesh.triangle_patch[t]] != 0,
-              .weights = {{{1, 0, 0}, {0, 1, 0}, {0, 0, 1}}}};
+      WallFace& face = faces_[t];
+      face = {
+          .patch = mesh.triangle_patch[t], .source = t, .has_layer = has_layer[mesh.triangle_patch[t]] != 0, .weights = {{{1, 0, 0}, {0, 1, 0}, {0, 0, 1}}}};
       double longest = 0.0;
-      for (std::uint32_t k = 0; k < 3; ++k) {
-        face.twins[k] = static_cast<SideId>(topology.twin(HalfedgeId(3 * f + k)).index());
-        longest = std::max(longest, distance(points_[face.corners[k]], points_[face.corners[(k + 1) % 3]]));
-      }
+      for (int k = 0; k < 3; ++k) longest = std::max(longest, distance(from(halfedge(t, k)), to(halfedge(t, k))));
       const auto [a, b, c] = sterna::corners(mesh, t);
       face.least_edge = k_least_piece * longest * std::min(1.0, limit_ / std::max(limit_ / k_sliver_reach, cotangent_of(a, b, c)));
     });
@@ -107,24 +91,24 @@ class SliverSplitter {
   }
 
   void run() {
-    for (FaceId f = 0; f < faces_.size(); ++f)
+    for (const TriangleId f : faces_.ids())
       if (is_sliver(f)) flip_around({f});
     const auto budget = static_cast<std::int64_t>(std::min(options_.needle_budget * static_cast<double>(n_given_), 2e9));
-    for (FaceId f = 0; f < faces_.size(); ++f) enqueue(f);
+    for (const TriangleId f : faces_.ids()) enqueue(f);
     while (!queue_.empty()) {
       const Candidate candidate = queue_.top();
       queue_.pop();
       if (candidate.cotangent != cotangent(candidate.face)) continue;  // the entry belongs to a triangle that no longer exists
-      const SideId chosen = side_to_bisect(candidate.face);
-      if (chosen == k_none) continue;
+      const HalfedgeId chosen = side_to_bisect(candidate.face);
+      if (!chosen.is_valid()) continue;
       if (n_new_ + 2 > budget) {
         is_over_budget_ = true;
         break;
       }
-      const std::array<FaceId, 4> made = bisect(end_of_path(chosen));
-      for (const FaceId f : flip_around({made.begin(), made.end()})) {
+      const std::array<TriangleId, 4> made = bisect(end_of_path(chosen));
+      for (const TriangleId f : flip_around({made.begin(), made.end()})) {
         enqueue(f);
-        for (const SideId twin : faces_[f].twins) enqueue(face_of(twin));
+        for (int k = 0; k < 3; ++k) enqueue(triangle_of(twin(halfedge(f, k))));
       }
       enqueue(candidate.face);
       if (++n_bisections_ % 4096 == 0) context_.check_stop();
@@ -134,14 +118,14 @@ class SliverSplitter {
   /// Returns the sum of the cotangents of sliver triangles, a measure of their number and sharpness.
   double sharpness() const {
     double sum = 0.0;
-    for (FaceId f = 0; f < faces_.size(); ++f) sum += is_sliver(f) ? cotangent(f) : 0.0;
+    for (const TriangleId f : faces_.ids()) sum += is_sliver(f) ? cotangent(f) : 0.0;
     return sum;
   }
 
   /// Marks the given triangles whose sliver parts are more or sharper than before. Returns false if no further triangle is marked.
   bool lock_spoilt(const TriMesh& given, Column<TriangleId, std::uint8_t>& is_locked) const {
     Column<TriangleId, double> sum(is_locked.size(), 0.0);
-    for (FaceId f = 0; f < faces_.size(); ++f)
+    for (const TriangleId f : faces_.ids())
       if (is_sliver(f)) sum[faces_[f].source] += cotangent(f);
     bool has_new = false;
     for (const TriangleId t : given.triangles.ids()) {
@@ -154,14 +138,14 @@ class SliverSplitter {
 
   SliverSplits put_into(TriMesh& mesh) const {
     SliverSplits result;
-    std::vector<FaceId> order(faces_.size());
-    for (FaceId f = 0; f < order.size(); ++f) order[f] = f;
-    std::stable_sort(order.begin(), order.end(), [&](FaceId a, FaceId b) { return faces_[a].source < faces_[b].source; });
+    std::vector<TriangleId> order;
+    for (const TriangleId f : faces_.ids()) order.push_back(f);
+    std::stable_sort(order.begin(), order.end(), [&](TriangleId a, TriangleId b) { return faces_[a].source < faces_[b].source; });
     mesh.points = points_;
     mesh.triangles.clear();
     mesh.triangle_patch.clear();
-    for (const FaceId f : order) {
-      mesh.triangles.push_back(faces_[f].corners);
+    for (const TriangleId f : order) {
+      mesh.triangles.push_back(mesh_.triangles[f]);
       mesh.triangle_patch.push_back(faces_[f].patch);
       result.sources.push_back(faces_[f].source);
       result.weights.push_back(faces_[f].weights);
@@ -171,89 +155,63 @@ class SliverSplitter {
   }
 
  private:
-  static constexpr SideId k_none = static_cast<SideId>(-1);
-
   struct Candidate {
     double cotangent;
-    FaceId face;
+    TriangleId face;
     /// The top of a priority_queue is its largest element. This order makes it the mildest sliver, and among equal ones the first face.
     bool operator<(const Candidate& b) const { return cotangent != b.cotangent ? cotangent > b.cotangent : face > b.face; }
   };
 
-  const Point& from(SideId s) const { return points_[faces_[face_of(s)].corners[s % 3]]; }
-  const Point& to(SideId s) const { return from(side_after(s)); }
-  const Point& opposite(SideId s) const { return from(side_before(s)); }
-  VertexId vertex(SideId s) const { return faces_[face_of(s)].corners[s % 3]; }
-  SideId twin(SideId s) const { return faces_[face_of(s)].twins[s % 3]; }
-  double length2(SideId s) const { return norm2(to(s) - from(s)); }
-  double cotangent(FaceId f) const { return cotangent_of(from(side_at(f, 0)), from(side_at(f, 1)), from(side_at(f, 2))); }
-  bool is_sliver(FaceId f) const { return faces_[f].has_layer && cotangent(f) > limit_; }
-  Vec3 area(FaceId f) const { return area_vector(from(side_at(f, 0)), from(side_at(f, 1)), from(side_at(f, 2))); }
-  bool is_inner(SideId s) const { return faces_[face_of(s)].has_layer && faces_[face_of(twin(s))].has_layer; }
+  const Point& from(HalfedgeId s) const { return points_[mesh_.from(s)]; }
+  const Point& to(HalfedgeId s) const { return points_[mesh_.to(s)]; }
+  const Point& opposite(HalfedgeId s) const { return points_[mesh_.apex(s)]; }
+  HalfedgeId twin(HalfedgeId s) const { return mesh_.twins[s]; }
+  double length2(HalfedgeId s) const { return norm2(to(s) - from(s)); }
+  double cotangent(TriangleId f) const { return cotangent_of(from(halfedge(f, 0)), from(halfedge(f, 1)), from(halfedge(f, 2))); }
+  bool is_sliver(TriangleId f) const { return faces_[f].has_layer && cotangent(f) > limit_; }
+  Vec3 area(TriangleId f) const { return area_vector(from(halfedge(f, 0)), from(halfedge(f, 1)), from(halfedge(f, 2))); }
+  bool is_inner(HalfedgeId s) const { return faces_[triangle_of(s)].has_layer && faces_[triangle_of(twin(s))].has_layer; }
 
-  void enqueue(FaceId f) {
+  void enqueue(TriangleId f) {
     if (is_sliver(f)) queue_.push({cotangent(f), f});
-  }
-
-  /// Returns true if a vertex is a neighbour of the start of a side.
-  bool has_neighbour(SideId s, VertexId other) const {
-    const SideId first = s;
-    do {
-      if (vertex(side_after(s)) == other) return true;
-      s = side_after(twin(s));
-    } while (s != first);
-    return false;
   }
 
   bool is_straight(const Vec3& a, const Vec3& b) const { return dot(a, b) >= flat_cosine_ * norm(a) * norm(b); }
 
   /// Returns true if an edge is inside a patch and the wall is flat along it.
-  bool is_flat(SideId s) const {
-    const SideId t = twin(s);
-    if (options_.flip_angle == 0.0 || !is_inner(s) || faces_[face_of(s)].patch != faces_[face_of(t)].patch) return false;
-    const Vec3 a = area(face_of(s)), b = area(face_of(t));
+  bool is_flat(HalfedgeId s) const {
+    const HalfedgeId t = twin(s);
+    if (options_.flip_angle == 0.0 || !is_inner(s) || faces_[triangle_of(s)].patch != faces_[triangle_of(t)].patch) return false;
+    const Vec3 a = area(triangle_of(s)), b = area(triangle_of(t));
     if (is_straight(a, b)) return true;
     return diagonal_distance(from(s), to(s), opposite(s), opposite(t)) <= k_hairline * distance(opposite(s), opposite(t));
   }
 
   /// Returns the larger cotangent after a flip; infinite if the flip is not allowed.
-  double cotangent_behind_flip(SideId s) const {
+  double cotangent_behind_flip(HalfedgeId s) const {
     if (!is_flat(s)) return k_endless_cotangent;
     const Point &a = from(s), &b = to(s), &c = opposite(s), &d = opposite(twin(s));
     const double worst = std::max(cotangent_of(a, d, c), cotangent_of(d, b, c));
     if (worst == k_endless_cotangent) return worst;
-    const Vec3 sum = area(face_of(s)) + area(face_of(twin(s)));
+    const Vec3 sum = area(triangle_of(s)) + area(triangle_of(twin(s)));
     const Vec3 first = area_vector(a, d, c), second = area_vector(d, b, c);
     if (!is_straight(first, sum) || !is_straight(second, sum)) return k_endless_cotangent;
     if (drift_behind_flip(s) > k_flip_drift * options_.flip_angle * std::sqrt(std::min(length2(s), norm2(d - c)))) return k_endless_cotangent;
-    if (has_neighbour(side_before(s), vertex(side_before(twin(s))))) return k_endless_cotangent;
+    if (mesh_.is_edge(previous(s), mesh_.apex(twin(s)))) return k_endless_cotangent;
     return worst;
   }
 
-  double drift_behind_flip(SideId s) const {
-    return std::max(faces_[face_of(s)].drift, faces_[face_of(twin(s))].drift) + diagonal_distance(from(s), to(s), opposite(s), opposite(twin(s)));
+  double drift_behind_flip(HalfedgeId s) const {
+    return std::max(faces_[triangle_of(s)].drift, faces_[triangle_of(twin(s))].drift) + diagonal_distance(from(s), to(s), opposite(s), opposite(twin(s)));
   }
 
-  void join(SideId a, SideId b) {
-    faces_[face_of(a)].twins[a % 3] = b;
-    faces_[face_of(b)].twins[b % 3] = a;
-  }
-
-  void flip(SideId s) {
+  void flip(HalfedgeId s) {
     const double drift = drift_behind_flip(s);
-    const SideId t = twin(s);
-    const FaceId f = face_of(s), g = face_of(t);
-    const VertexId a = vertex(s), b = vertex(t), c = vertex(side_before(s)), d = vertex(side_before(t));
-    const SideId bc = twin(side_after(s)), ca = twin(side_before(s)), ad = twin(side_after(t)), db = twin(side_before(t));
+    const TriangleId f = triangle_of(s), g = triangle_of(twin(s));
+    const VertexId a = mesh_.from(s), b = mesh_.to(s), c = mesh_.apex(s), d = mesh_.apex(twin(s));
     const double least_edge = std::min(faces_[f].least_edge, faces_[g].least_edge);
-    faces_[f].corners = {a, d, c};
-    faces_[g].corners = {d, b, c};
-    join(side_at(f, 0), ad);
-    join(side_at(f, 1), side_at(g, 2));
-    join(side_at(f, 2), ca);
-    join(side_at(g, 0), db);
-    join(side_at(g, 1), bc);
-    for (const FaceId i : {f, g}) {
+    mesh_.flip(s, {a, d, c}, {d, b, c});
+    for (const TriangleId i : {f, g}) {
       faces_[i].weights = {};
       faces_[i].drift = drift;
       faces_[i].least_edge = least_edge;
@@ -263,25 +221,25 @@ class SliverSplitter {
 
   /// Flips edges of sliver triangles among these faces, and of faces that change in the process, as long as flips improve angles. Returns all these faces,
   /// ascending.
-  std::vector<FaceId> flip_around(std::vector<FaceId> faces) {
-    std::vector<FaceId> waiting(faces.rbegin(), faces.rend());
+  std::vector<TriangleId> flip_around(std::vector<TriangleId> faces) {
+    std::vector<TriangleId> waiting(faces.rbegin(), faces.rend());
     while (!waiting.empty()) {
-      const FaceId f = waiting.back();
+      const TriangleId f = waiting.back();
       waiting.pop_back();
       if (!is_sliver(f)) continue;
-      SideId best = k_none;
+      HalfedgeId best;
       double least = k_endless_cotangent;
-      for (std::uint32_t k = 0; k < 3; ++k) {
-        const double behind = cotangent_behind_flip(side_at(f, k));
-        const double before = std::max(cotangent(f), cotangent(face_of(twin(side_at(f, k)))));
+      for (int k = 0; k < 3; ++k) {
+        const double behind = cotangent_behind_flip(halfedge(f, k));
+        const double before = std::max(cotangent(f), cotangent(triangle_of(twin(halfedge(f, k)))));
         if (behind > k_flip_gain * before || behind >= least) continue;
         least = behind;
-        best = side_at(f, k);
+        best = halfedge(f, k);
       }
-      if (best == k_none) continue;
-      const FaceId g = face_of(twin(best));
+      if (!best.is_valid()) continue;
+      const TriangleId g = triangle_of(twin(best));
       flip(best);
-      for (const FaceId changed : {g, f}) {
+      for (const TriangleId changed : {g, f}) {
         waiting.push_back(changed);
         faces.push_back(changed);
       }
@@ -292,18 +250,18 @@ class SliverSplitter {
   }
 
   /// Returns true if the angle between the creases at a corner is large enough for better angles.
-  bool has_room(SideId at_corner) const {
+  bool has_room(HalfedgeId at_corner) const {
     double angle = corner_angle(from(at_corner), to(at_corner), opposite(at_corner));
-    const auto add = [&](SideId s) { return angle += corner_angle(from(s), to(s), opposite(s)); };
-    SideId s = at_corner;
+    const auto add = [&](HalfedgeId s) { return angle += corner_angle(from(s), to(s), opposite(s)); };
+    HalfedgeId s = at_corner;
     while (angle < options_.split_needles && is_flat(s)) {
-      s = side_after(twin(s));
+      s = next(twin(s));
       if (s == at_corner) return true;
       add(s);
     }
     s = at_corner;
-    while (angle < options_.split_needles && is_flat(side_before(s))) {
-      s = twin(side_before(s));
+    while (angle < options_.split_needles && is_flat(previous(s))) {
+      s = twin(previous(s));
       if (s == at_corner) return true;
       add(s);
     }
@@ -311,94 +269,86 @@ class SliverSplitter {
   }
 
   /// Returns the longest edge of a triangle, or a crease of the triangle that is nearly as long.
-  SideId long_side(FaceId f) const {
-    SideId longest = side_at(f, 0);
-    for (std::uint32_t k = 1; k < 3; ++k)
-      if (length2(side_at(f, k)) > length2(longest)) longest = side_at(f, k);
-    SideId crease = k_none;
-    for (std::uint32_t k = 0; k < 3; ++k) {
-      const SideId s = side_at(f, k);
+  HalfedgeId long_side(TriangleId f) const {
+    HalfedgeId longest = halfedge(f, 0);
+    for (int k = 1; k < 3; ++k)
+      if (length2(halfedge(f, k)) > length2(longest)) longest = halfedge(f, k);
+    HalfedgeId crease;
+    for (int k = 0; k < 3; ++k) {
+      const HalfedgeId s = halfedge(f, k);
       if (!is_inner(s) || is_flat(s) || length2(s) < k_crease_share * k_crease_share * length2(longest)) continue;
-      if (crease == k_none || length2(s) > length2(crease)) crease = s;
+      if (!crease.is_valid() || length2(s) > length2(crease)) crease = s;
     }
-    return crease != k_none ? crease : longest;
+    return crease.is_valid() ? crease : longest;
   }
 
   /// Returns true if a triangle is a sliver that stays a sliver, whatever the number of pieces.
-  bool is_hopeless(FaceId f) const {
+  bool is_hopeless(TriangleId f) const {
     const double sharp = cotangent(f);
     if (!faces_[f].has_layer || sharp <= limit_) return false;
     if (sharp > k_sliver_reach * limit_ || is_locked_[faces_[f].source]) return true;
-    SideId shortest = side_at(f, 0);
-    for (std::uint32_t k = 1; k < 3; ++k)
-      if (length2(side_at(f, k)) < length2(shortest)) shortest = side_at(f, k);
-    return !has_room(side_before(shortest));  // tests the room at the smallest angle
+    HalfedgeId shortest = halfedge(f, 0);
+    for (int k = 1; k < 3; ++k)
+      if (length2(halfedge(f, k)) < length2(shortest)) shortest = halfedge(f, k);
+    return !has_room(previous(shortest));  // tests the room at the smallest angle
   }
 
   /// Returns true if a triangle's halves would be sharper slivers than the triangle itself.
-  bool spoils(SideId s) const {
-    if (!faces_[face_of(s)].has_layer) return false;
+  bool spoils(HalfedgeId s) const {
+    if (!faces_[triangle_of(s)].has_layer) return false;
     const Point m = 0.5 * (from(s) + to(s));
     const double worst = std::max(cotangent_of(from(s), m, opposite(s)), cotangent_of(m, to(s), opposite(s)));
-    return worst > std::max(limit_, k_sharper * cotangent(face_of(s)));
+    return worst > std::max(limit_, k_sharper * cotangent(triangle_of(s)));
   }
 
   /// Returns the edge to bisect to improve a sliver; none if bisection would not improve it.
-  SideId side_to_bisect(FaceId f) const {
-    const SideId s = long_side(f);
-    if (!is_inner(s) || length2(s) < 4.0 * faces_[f].least_edge * faces_[f].least_edge) return k_none;
-    return is_hopeless(f) || is_hopeless(face_of(twin(s))) || spoils(s) || spoils(twin(s)) ? k_none : s;
+  HalfedgeId side_to_bisect(TriangleId f) const {
+    const HalfedgeId s = long_side(f);
+    if (!is_inner(s) || length2(s) < 4.0 * faces_[f].least_edge * faces_[f].least_edge) return {};
+    return is_hopeless(f) || is_hopeless(triangle_of(twin(s))) || spoils(s) || spoils(twin(s)) ? HalfedgeId() : s;
   }
 
-  SideId end_of_path(SideId s) const {
+  HalfedgeId end_of_path(HalfedgeId s) const {
     for (;;) {
-      const SideId beyond = long_side(face_of(twin(s)));
+      const HalfedgeId beyond = long_side(triangle_of(twin(s)));
       if (!is_inner(beyond) || length2(beyond) <= length2(s)) return s;
       double longest = 0.0;
-      for (std::uint32_t k = 0; k < 3; ++k) longest = std::max(longest, length2(side_at(face_of(beyond), k)));
-      if (longest <= k_path_ratio * k_path_ratio * length2(s) || is_hopeless(face_of(twin(beyond)))) return s;
+      for (int k = 0; k < 3; ++k) longest = std::max(longest, length2(halfedge(triangle_of(beyond), k)));
+      if (longest <= k_path_ratio * k_path_ratio * length2(s) || is_hopeless(triangle_of(twin(beyond)))) return s;
       s = beyond;
     }
   }
 
   /// Bisects an edge and returns the four triangles adjacent to the new vertex.
-  std::array<FaceId, 4> bisect(SideId s) {
-    const SideId t = twin(s);
-    const VertexId m = points_.push_back(0.5 * (from(s) + to(s)));
-    const std::array<FaceId, 4> made = {face_of(s), static_cast<FaceId>(faces_.size()), face_of(t), static_cast<FaceId>(faces_.size() + 1)};
-    halve(s, m);
-    halve(t, m);
-    join(side_at(made[0], 0), side_at(made[3], 0));
-    join(side_at(made[1], 0), side_at(made[2], 0));
+  std::array<TriangleId, 4> bisect(HalfedgeId s) {
+    const HalfedgeId t = twin(s);
+    points_.push_back(0.5 * (from(s) + to(s)));
+    mesh_.split(s);
     n_new_ += 2;
-    return made;
+    const TriangleId second = halve(s), second_t = halve(t);
+    return {triangle_of(s), second, triangle_of(t), second_t};
   }
 
-  /// Changes (a, b, c) to (a, m, c), and appends (m, b, c) as the last face.
-  void halve(SideId s, VertexId m) {
-    const FaceId f = face_of(s), last = static_cast<FaceId>(faces_.size());
-    const std::uint32_t k = s % 3, l = (k + 1) % 3, n = (k + 2) % 3;
-    const SideId bc = twin(side_at(f, l)), ca = twin(side_at(f, n));
-    WallFace &first = faces_[f], second = first;
-    const WallFace whole = first;
-    const std::array<double, 3> middle = middle_weights(whole.weights[k], whole.weights[l]);
-    first.corners = {whole.corners[k], m, whole.corners[n]};
-    first.weights = {whole.weights[k], middle, whole.weights[n]};
-    second.corners = {m, whole.corners[l], whole.corners[n]};
-    second.weights = {middle, whole.weights[l], whole.weights[n]};
-    faces_.push_back(second);
-    join(side_at(f, 2), ca);
-    join(side_at(last, 1), bc);
-    join(side_at(f, 1), side_at(last, 2));
+  /// Appends the data of the triangle (m, b, c) after the split of (a, b, c) at the side from a to b. Makes a the first corner of (a, m, c).
+  TriangleId halve(HalfedgeId s) {
+    WallFace &first = faces_[triangle_of(s)], second = first;
+    const CornerWeights whole = first.weights;
+    const int k = corner_of(s), l = (k + 1) % 3, n = (k + 2) % 3;
+    const std::array<double, 3> middle = middle_weights(whole[k], whole[l]);
+    first.weights = {whole[k], middle, whole[n]};
+    second.weights = {middle, whole[l], whole[n]};
+    mesh_.rotate(triangle_of(s), k);
+    return faces_.push_back(second);
   }
 
   const SliverOptions& options_;
   const RunContext& context_;
   double limit_;  ///< limit of the cotangent
   double flat_cosine_;
+  EditMesh mesh_;  ///< all faces of the boundary
   Column<VertexId, Point> points_;
   const Column<TriangleId, std::uint8_t>& is_locked_;  ///< flags of the given triangles
-  std::vector<WallFace> faces_;                        ///< all faces of the boundary
+  Column<TriangleId, WallFace> faces_;                 ///< data of the triangles of the mesh
   std::priority_queue<Candidate> queue_;
   std::int64_t n_given_ = 0, n_new_ = 0, n_flips_ = 0, n_bisections_ = 0;
   bool is_over_budget_ = false;

@@ -229,7 +229,7 @@ void LayerBase::let_grow_alike(const std::vector<std::array<VertexId, 2>>& partn
   }
   std::map<VertexId, std::vector<VertexId>> by_root;
   for (const auto& entry : parent) by_root[root(entry.first)].push_back(entry.first);
-  group.assign(wall.n_vertices(), k_no_group);
+  group.assign(wall.n_vertices(), k_none);
   groups.clear();
   for (auto& entry : by_root) {
     for (const VertexId v : entry.second) {

@@ -45,10 +45,9 @@ struct LayerBase {
   Column<VertexId, double> vertex_area;   ///< m^2, a third of the area of the incident triangles
 
   /// Groups of vertices with equal growth (where walls end on periodic sides), each in ascending order, and the group of each vertex. Without groups the second
-  /// list is empty; vertices without a group have k_no_group.
+  /// list is empty; vertices without a group have k_none.
   std::vector<std::vector<VertexId>> groups;
   Column<VertexId, std::uint32_t> group;
-  static constexpr std::uint32_t k_no_group = 0xffffffffu;
   /// Computes normals, directions and edges of these pairs from the triangles of both partners together. Pairs may be chained (two directions of
   /// periodicity).
   /// \pre constraints of partners are equal except for the sense of their axes
@@ -102,7 +101,7 @@ struct LayerBase {
 /// Calls f(w) for v and all vertices that must grow like v, ascending.
 template <class F>
 void for_each_alike(const LayerBase& base, VertexId v, const F& f) {
-  if (base.group.empty() || base.group[v] == LayerBase::k_no_group) return f(v);
+  if (base.group.empty() || base.group[v] == k_none) return f(v);
   for (const VertexId w : base.groups[base.group[v]]) f(w);
 }
 

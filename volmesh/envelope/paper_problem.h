@@ -80,7 +80,6 @@ class PaperProblem {
   double part(Part part, std::span<const double> z, std::span<double> gradient, const RunContext& context) const;
 
  private:
-  static constexpr std::uint32_t k_none = 0xffffffffu;
   /// A vertex that participates.
   struct Location {
     VertexId vertex;

@@ -84,13 +84,13 @@ class SheetGrower {
 
   /// Gives base vertices on periodic sides bit-exactly the targets of their images.
   void share_with_images() {
-    constexpr std::size_t k_none = static_cast<std::size_t>(-1);
-    Column<VertexId, std::size_t> line_at(base_.wall.n_vertices(), k_none);
+    constexpr std::size_t k_no_line = static_cast<std::size_t>(-1);
+    Column<VertexId, std::size_t> line_at(base_.wall.n_vertices(), k_no_line);
     for (std::size_t i = 0; i < lines_.size(); ++i) line_at[sheets_.base_vertices[i].sides[0]] = i;
     for (const std::vector<VertexId>& group : base_.groups) {
       std::vector<std::size_t> members;
       for (const VertexId v : group)
-        if (line_at[v] != k_none) members.push_back(line_at[v]);
+        if (line_at[v] != k_no_line) members.push_back(line_at[v]);
       if (members.empty()) continue;
       SheetLine shared = lines_[members.front()];
       for (const std::size_t i : members) {

@@ -86,14 +86,13 @@ std::vector<Swallowing> Collider::swallowings(const EnvelopeShape& shape) const 
     look(shape.point(base_.wall, v), part, v);
     has_top_point[part] = 1;
   }
-  constexpr std::uint32_t k_no_part = 0xffffffff;
   // Vertices of re-meshed patches that a layer covers will not exist in the final mesh.
   Column<VertexId, std::uint8_t> is_passing(outer_ ? outer_->n_vertices() : 0, 0);
   for (std::size_t t = 0; links_ && t < outer_->n_triangles(); ++t)
     if (links_->surface[TriangleId(t)] >= 0)
       for (const VertexId v : outer_->triangles[TriangleId(t)]) is_passing[v] = 1;
   for (const VertexId v : is_passing.ids())
-    if (!is_passing[v]) look(outer_->points[v], k_no_part, {});
+    if (!is_passing[v]) look(outer_->points[v], k_none, {});
   return all;
 }
 

@@ -5,6 +5,7 @@
 
 #include "geom/base/parallel.h"
 #include "geom/mesh/bvh.h"
+#include "geom/tets/tet_mesh.h"
 #include "volmesh/improve/tet_quality.h"
 
 namespace sterna::volmesh {
@@ -50,9 +51,8 @@ bool is_separated_along(const Core& a, const Core& b, const Vec3& axis) {
 /// Returns true if two convex bodies overlap. They do not overlap if and only if they are separate along a face normal, or along a normal of an edge of each
 /// body.
 bool do_overlap(const Core& a, const Core& b) {
-  constexpr std::uint8_t k_faces[4][3] = {{1, 3, 2}, {0, 2, 3}, {0, 3, 1}, {0, 1, 2}};
   constexpr std::uint8_t k_edges[6][2] = {{0, 1}, {0, 2}, {0, 3}, {1, 2}, {1, 3}, {2, 3}};
-  for (const auto& f : k_faces)
+  for (const auto& f : tets::k_face)
     for (const Core* core : {&a, &b})
       if (is_separated_along(a, b, cross((*core)[f[1]] - (*core)[f[0]], (*core)[f[2]] - (*core)[f[0]]))) return false;
   for (const auto& e : k_edges)
@@ -109,7 +109,7 @@ std::vector<std::uint32_t> forcing_triangles(const TetraBoundary& boundary, std:
         a.insert(a.end(), b.begin(), b.end());
         return a;
       });
-  std::vector<std::uint32_t> result(target.size(), k_unforced);
+  std::vector<std::uint32_t> result(target.size(), k_none);
   for (const Hit& hit : hits) result[hit.location] = std::min(result[hit.location], hit.triangle);
   return result;
 }

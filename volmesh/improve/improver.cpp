@@ -19,7 +19,6 @@ constexpr std::uint32_t k_ring_shift = 28;
 /// within one ring.
 constexpr std::uint32_t rings_of(int pass) { return pass % 3 == 2 ? 2 : 1; }
 constexpr std::size_t k_job_chunk = 1;
-constexpr std::uint32_t k_no_region = 0xffffffffu;
 /// Limits for the number of tetrahedra graded in all passes: per run, and per tetrahedron. Usual meshes need 20 to 400 per tetrahedron. Fans of thousands of
 /// slivers would take days without the limits.
 constexpr std::uint64_t k_least_effort = 300'000'000, k_effort_of_tet = 500, k_effort_of_job = 20'000'000;
@@ -145,7 +144,7 @@ void Improver::work_on(std::span<const std::uint32_t> bad) {
   limits_.floor = std::max({limits_.floor, k_floor * limits_.target, worst});
 }
 
-bool Improver::is_alive(std::uint32_t tet) const { return tets_[tet][0] != k_no_region; }
+bool Improver::is_alive(std::uint32_t tet) const { return tets_[tet][0] != k_none; }
 
 void Improver::drop_good() {
   std::erase_if(bad_, [&](Bad& bad) {
@@ -228,7 +227,7 @@ int Improver::run(int max_passes) {
       break;
     }
     const std::uint64_t share = std::max(left / jobs.size(), k_effort_of_job);
-    owner_.assign(points_.size(), k_no_region);
+    owner_.assign(points_.size(), k_none);
     local_.resize(points_.size());
     for (std::uint32_t ring = 0; ring <= rings_of(pass); ++ring)
       parallel_for(
@@ -377,7 +376,7 @@ void Improver::put_back(const Job& job) {
       n_failures_.push_back(0);
     }
     if (i >= job.added.size()) {
-      tets_[slot][0] = k_no_region;
+      tets_[slot][0] = k_none;
       continue;
     }
     for (std::size_t k = 0; k < 4; ++k) {
@@ -391,7 +390,7 @@ void Improver::put_back(const Job& job) {
 }
 
 void Improver::finish(TetraResult& result) {
-  std::erase_if(tets_, [](const Corners& c) { return c[0] == k_no_region; });
+  std::erase_if(tets_, [](const Corners& c) { return c[0] == k_none; });
   std::vector<std::uint32_t> number(points_.size(), 0);
   for (std::size_t v = 0; v < n_fixed_; ++v) number[v] = 1;
   for (const Corners& c : tets_)

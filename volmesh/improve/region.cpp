@@ -131,8 +131,8 @@ double Region::cost(const Face& face, const Vec3& apex) const {
 }
 
 Region::Face Region::opposite(const Corners& c, std::size_t corner) {
-  constexpr std::uint8_t k_faces[4][3] = {{1, 3, 2}, {0, 2, 3}, {0, 3, 1}, {0, 1, 2}};
-  return {c[k_faces[corner][0]], c[k_faces[corner][1]], c[k_faces[corner][2]]};
+  const auto& face = tets::k_face[corner];
+  return {c[face[0]], c[face[1]], c[face[2]]};
 }
 
 bool Region::apply(const Change& change, double least_drop) {

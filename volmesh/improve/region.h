@@ -8,7 +8,7 @@
 #include <span>
 #include <vector>
 
-#include "geom/base/vec3.h"
+#include "geom/tets/tet_mesh.h"
 #include "volmesh/improve/tet_quality.h"
 
 namespace sterna::volmesh {
@@ -43,7 +43,7 @@ std::optional<double> quality_on_layer(const TetShape& shape, const std::array<s
 /// than the worst tetrahedron removed, or than the floor of the limits.
 class Region {
  public:
-  using Corners = std::array<std::uint32_t, 4>;
+  using Corners = tets::Corners;
   struct Tet {
     Corners corners;
     double angle_quality = 0.0;  ///< quality of its angles, tet_quality()
@@ -87,7 +87,6 @@ class Region {
     Vec3 location;
     double size_weight = 1.0;  ///< size weight of that vertex
   };
-  static constexpr std::uint32_t k_none = 0xffffffffu;
   /// Smallest decrease of the sum of costs by a change. It guarantees termination.
   static constexpr double k_least_drop = 0.01;
   static constexpr double k_infinite = std::numeric_limits<double>::infinity();

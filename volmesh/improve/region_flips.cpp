@@ -1,13 +1,12 @@
 // Changes of connectivity without new points.
 //
 // Edge removal replaces the tetrahedra around an edge by pairs of tetrahedra over the best triangulation of the ring of vertices around it (2-3 for a ring of
-// 3, 4-4 for 4, etc.). The triangulation is found by dynamic programming (Klincsek 1980). Multi-face removal is the inverse operation: faces between the same
-// two vertices are replaced by the edge between these vertices. Based on: Shewchuk, Two discrete optimization algorithms for the topological improvement of
-// tetrahedral meshes (2002).
+// 3, 4-4 for 4, etc.). Multi-face removal is the inverse operation: faces between the same two vertices are replaced by the edge between these vertices. Based
+// on: Shewchuk, Two discrete optimization algorithms for the topological improvement of tetrahedral meshes (2002).
 
 #include <algorithm>
-#include <limits>
 
+#include "geom/tets/ring_fill.h"
 #include "volmesh/improve/region.h"
 
 namespace sterna::volmesh {
@@ -15,18 +14,6 @@ namespace {
 
 constexpr std::size_t k_max_ring = 10;  ///< largest ring; removing longer rings hardly ever improves the mesh
 constexpr int k_max_faces_deep = 4;     ///< largest recursion depth, counted from the first face
-
-std::size_t corner_of(const Region::Corners& c, std::uint32_t v) { return static_cast<std::size_t>(std::ranges::find(c, v) - c.begin()); }
-bool has(const Region::Corners& c, std::uint32_t v) { return corner_of(c, v) < 4; }
-
-/// Returns the other two corners x and y, such that (a, b, x, y) is positive.
-std::array<std::uint32_t, 2> other_two(const Region::Corners& c, std::uint32_t a, std::uint32_t b) {
-  const std::size_t i = corner_of(c, a), j = corner_of(c, b);
-  // Even permutations of 0123, given by their first two entries.
-  constexpr std::uint8_t k_rest[4][4][2] = {
-      {{0, 0}, {2, 3}, {3, 1}, {1, 2}}, {{3, 2}, {0, 0}, {0, 3}, {2, 0}}, {{1, 3}, {3, 0}, {0, 0}, {0, 1}}, {{2, 1}, {0, 2}, {1, 0}, {0, 0}}};
-  return {c[k_rest[i][j][0]], c[k_rest[i][j][1]]};
-}
 
 }  // namespace
 
@@ -41,10 +28,10 @@ void Region::try_edge(std::uint32_t a, std::uint32_t b, Change& best) {
   std::array<std::uint32_t, k_max_ring> around{}, from{}, to{};
   std::size_t n = 0;
   for (const std::uint32_t t : incident_[a]) {
-    if (!has(tets_[t].corners, b)) continue;
+    if (!tets::has(tets_[t].corners, b)) continue;
     if (n == k_max_ring) return;
     around[n] = t;
-    const auto [x, y] = other_two(tets_[t].corners, a, b);
+    const auto [x, y] = tets::other_two(tets_[t].corners, a, b);
     from[n] = x;
     to[n++] = y;
   }
@@ -61,49 +48,25 @@ void Region::try_edge(std::uint32_t a, std::uint32_t b, Change& best) {
     if (i < n) ring[i] = v;
   }
   const double limit = cost_before_ - best.drop;
-  double value[k_max_ring][k_max_ring];
-  std::uint8_t middle[k_max_ring][k_max_ring] = {};
-  for (std::size_t i = 0; i + 1 < n; ++i) value[i][i + 1] = 0.0;
-  for (std::size_t span = 2; span < n; ++span) {
-    for (std::size_t i = 0; i + span < n; ++i) {
-      const std::size_t k = i + span;
-      value[i][k] = k_infinite;
-      for (std::size_t j = i + 1; j < k; ++j) {
-        double sum = value[i][j] + value[j][k];
-        const double least = std::min(value[i][k], limit);
-        if (sum >= least) continue;
-        sum += cost(Corners{ring[i], ring[j], ring[k], b});
-        if (sum >= least) continue;
-        sum += cost(Corners{ring[j], ring[i], ring[k], a});
-        if (sum >= least) continue;
-        value[i][k] = sum;
-        middle[i][k] = static_cast<std::uint8_t>(j);
-      }
-    }
-  }
-  const double after = value[0][n - 1];
-  if (after >= limit) return;
-  best = Change{.drop = cost_before_ - after};
+  const auto with_triangle = [&](std::size_t i, std::size_t j, std::size_t k, double sum, double bound) {
+    sum += cost(Corners{ring[i], ring[j], ring[k], b});
+    return sum < bound ? sum + cost(Corners{ring[j], ring[i], ring[k], a}) : sum;
+  };
+  tets::RingFill<k_max_ring> fill;
+  if (!fill.find(n, limit, with_triangle, [](std::size_t, std::size_t, double sum) { return sum; })) return;
+  best = Change{.drop = cost_before_ - fill.cost()};
   best.removed.assign(around.begin(), around.begin() + static_cast<std::ptrdiff_t>(n));
-  std::array<std::array<std::size_t, 2>, k_max_ring> stack{};
-  std::size_t depth = 0;
-  stack[depth++] = {0, n - 1};
-  while (depth > 0) {
-    const auto [i, k] = stack[--depth];
-    if (k == i + 1) continue;
-    const std::size_t j = middle[i][k];
+  fill.for_triangles([&](std::size_t i, std::size_t j, std::size_t k) {
     best.added.push_back({ring[i], ring[j], ring[k], b});
     best.added.push_back({ring[j], ring[i], ring[k], a});
-    stack[depth++] = {i, j};
-    stack[depth++] = {j, k};
-  }
+  });
 }
 
 std::uint32_t Region::across(std::uint32_t tet, const Face& face) const {
   // Above slivers some vertices have hundreds of tetrahedra. Therefore only the shortest of the three lists is searched.
   const std::uint32_t v = std::ranges::min(face, {}, [&](std::uint32_t u) { return incident_[u].size(); });
   for (const std::uint32_t t : incident_[v])
-    if (t != tet && std::ranges::all_of(face, [&](std::uint32_t u) { return has(tets_[t].corners, u); })) return t;
+    if (t != tet && std::ranges::all_of(face, [&](std::uint32_t u) { return tets::has(tets_[t].corners, u); })) return t;
   return k_none;
 }
 
@@ -142,7 +105,7 @@ double Region::extend_faces(std::uint32_t u, std::uint32_t v, std::uint32_t abov
     };
     const std::uint32_t w = next_above == k_none ? k_none : third();
     const std::uint32_t next_below = w == k_none || w == below ? k_none : across(next_above, {u, v, w});
-    if (next_below != k_none && has(tets_[next_below].corners, below) && std::ranges::find(change.removed, next_above) == change.removed.end()) {
+    if (next_below != k_none && tets::has(tets_[next_below].corners, below) && std::ranges::find(change.removed, next_above) == change.removed.end()) {
       Change longer = change;
       longer.removed.push_back(next_above);
       longer.removed.push_back(next_below);

@@ -9,6 +9,7 @@
 #include <cmath>
 #include <functional>
 
+#include "geom/tets/ring_fill.h"
 #include "volmesh/improve/region.h"
 
 namespace sterna::volmesh {
@@ -112,7 +113,7 @@ void Region::try_smoothing(std::uint32_t tet, Change& best) {
     faces.clear();
     for (const std::uint32_t t : incident_[v]) {
       const Corners& c = tets_[t].corners;
-      faces.push_back(opposite(c, static_cast<std::size_t>(std::ranges::find(c, v) - c.begin())));
+      faces.push_back(opposite(c, tets::corner_of(c, v)));
     }
     compare_with(incident_[v]);
     apex_weight_ = size_weights_[v];
@@ -140,7 +141,7 @@ void Region::try_contractions(std::uint32_t tet, Change& best) {
       const double limit = cost_before_ - best.drop;
       for (const std::uint32_t t : incident_[v]) {
         Corners c = tets_[t].corners;
-        if (std::ranges::find(c, u) != c.end()) continue;
+        if (tets::has(c, u)) continue;
         *std::ranges::find(c, v) = u;
         sum += cost(c);
         if (sum >= limit) break;

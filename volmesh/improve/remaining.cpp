@@ -8,6 +8,7 @@
 
 #include "geom/math/constants.h"
 #include "geom/math/measures.h"
+#include "geom/tets/tet_mesh.h"
 #include "volmesh/improve/forcing.h"
 #include "volmesh/improve/tet_quality.h"
 
@@ -21,7 +22,7 @@ struct Remaining {
   std::uint32_t tet = 0;
   double smallest = 0.0;  ///< radians, smallest and largest dihedral angle
   double largest = 0.0;
-  std::uint32_t triangle = k_unforced;  ///< boundary triangle that forces the tetrahedron
+  std::uint32_t triangle = k_none;  ///< boundary triangle that forces the tetrahedron
   /// Distance beyond the limits, used for sorting.
   double badness(const ImproveOptions& options) const { return std::max(options.improve_min_angle - smallest, largest - options.improve_max_angle); }
 };
@@ -47,33 +48,32 @@ class Surroundings {
     }
   }
 
-  /// Returns the boundary triangle that contains this directed side, seen from the domain; k_unforced if there is none.
+  /// Returns the boundary triangle that contains this directed side, seen from the domain; k_none if there is none.
   std::uint32_t triangle_at(std::uint32_t a, std::uint32_t b) const {
     const auto found = triangle_.find({a, b});
-    return found == triangle_.end() ? k_unforced : found->second;
+    return found == triangle_.end() ? k_none : found->second;
   }
   /// Returns the boundary triangles that are faces of a tetrahedron.
   std::vector<std::uint32_t> faces(const Corners& c) const {
-    constexpr std::uint8_t k_faces[4][3] = {{1, 3, 2}, {0, 2, 3}, {0, 3, 1}, {0, 1, 2}};
     std::vector<std::uint32_t> result;
-    for (const auto& f : k_faces) {
+    for (const auto& f : tets::k_face) {
       const std::uint32_t t = triangle_at(c[f[0]], c[f[1]]);
-      if (t != k_unforced && apex(t, c[f[0]], c[f[1]]) == c[f[2]]) result.push_back(t);
+      if (t != k_none && apex(t, c[f[0]], c[f[1]]) == c[f[2]]) result.push_back(t);
     }
     return result;
   }
   /// Returns the smallest angle through the domain between boundary triangles at an edge of the tetrahedron.
   double smallest_between(const Corners& tet) const {
-    double smallest = k_none;
+    double smallest = k_no_angle;
     for (const std::uint32_t a : tet)
       for (const std::uint32_t b : tet) {
-        const std::uint32_t left = a < b ? triangle_at(a, b) : k_unforced, right = triangle_at(b, a);
-        if (left != k_unforced && right != k_unforced) smallest = std::min(smallest, domain_angle(a, b, apex(left, a, b), apex(right, a, b)));
+        const std::uint32_t left = a < b ? triangle_at(a, b) : k_none, right = triangle_at(b, a);
+        if (left != k_none && right != k_none) smallest = std::min(smallest, domain_angle(a, b, apex(left, a, b), apex(right, a, b)));
       }
     return smallest;
   }
   double smallest_corner(const Corners& tet) const {
-    double smallest = k_none;
+    double smallest = k_no_angle;
     for (const std::uint32_t v : tet)
       if (v < corner_.size()) smallest = std::min(smallest, corner_[v]);
     return smallest;
@@ -82,7 +82,7 @@ class Surroundings {
     const auto& v = boundary_.triangles[triangle];
     return (point(v[0]) + point(v[1]) + point(v[2])) / 3.0;
   }
-  static constexpr double k_none = 7.0;  ///< larger than any angle
+  static constexpr double k_no_angle = 7.0;  ///< larger than any angle
 
  private:
   Vec3 point(std::uint32_t v) const { return boundary_.points[v]; }
@@ -147,16 +147,16 @@ void list_remaining(const TetraBoundary& boundary, const TetraResult& tets, std:
     const Corners& c = tets.tetrahedra[r.tet];
     const double between = surroundings.smallest_between(c);
     const bool is_wedge = between < options.improve_min_angle;
-    report.n_forced += is_wedge || r.triangle != k_unforced;
+    report.n_forced += is_wedge || r.triangle != k_none;
     if (report.remaining.size() == k_max_listed) continue;
     std::string what = format("dihedral angles %.3g to %.4g deg; ", k_degrees * r.smallest, k_degrees * r.largest);
     const double corner = surroundings.smallest_corner(c);
     if (is_wedge) {
       what += format("forced: boundary triangles meet at %.3g deg", k_degrees * between);
-    } else if (r.triangle != k_unforced) {
+    } else if (r.triangle != k_none) {
       const Vec3 other = surroundings.center(r.triangle);
       what += format("forced: no room beside the boundary triangle at (%.6g, %.6g, %.6g)", other.x, other.y, other.z);
-    } else if (corner < Surroundings::k_none) {
+    } else if (corner < Surroundings::k_no_angle) {
       what += format("not forced; sharpest corner of a boundary triangle here: %.3g deg", k_degrees * corner);
     } else {
       what += "not forced, away from the boundary";

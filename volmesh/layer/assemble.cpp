@@ -78,10 +78,9 @@ std::size_t n_layer_nodes(const LayerBlock& layers) {
   return n;
 }
 
-/// For each node of the layer: the growth line whose top it is; k_no_line for nodes below the tops.
-constexpr std::uint32_t k_no_line = 0xffffffffu;
+/// For each node of the layer: the growth line whose top it is; k_none for nodes below the tops.
 std::vector<std::uint32_t> lines_of_tops(const LayerBlock& layers, std::size_t n_nodes) {
-  std::vector<std::uint32_t> lines(n_nodes, k_no_line);
+  std::vector<std::uint32_t> lines(n_nodes, k_none);
   for (std::uint32_t line = 0; line < layers.n_lines(); ++line) lines[layers.top(line).index()] = line;
   return lines;
 }
@@ -89,7 +88,7 @@ std::vector<std::uint32_t> lines_of_tops(const LayerBlock& layers, std::size_t n
 /// Returns true for a triangle of the outer boundary, whose nodes are tops of growth lines or nodes outside the layer. Sides of cells beside a growth line that
 /// has ended have nodes below the tops.
 bool is_outer(const sterna::BoundaryTriangle& face, std::span<const std::uint32_t> line_of_top) {
-  return std::ranges::all_of(face.nodes, [&](NodeId node) { return node.index() >= line_of_top.size() || line_of_top[node.index()] != k_no_line; });
+  return std::ranges::all_of(face.nodes, [&](NodeId node) { return node.index() >= line_of_top.size() || line_of_top[node.index()] != k_none; });
 }
 
 /// Returns the boundary triangles that belong to the outer boundary, ascending.

@@ -65,7 +65,6 @@ LayerRoom room_around(const LayerBase& base, const Envelope& envelope, const Tri
                  .requested = std::max({envelope.target[v[0]], envelope.target[v[1]], envelope.target[v[2]]}),
                  .edge = mean_top_edge(base, envelope, t)};
   });
-  constexpr std::uint32_t k_none = FacingTriangle::k_no_line;
   if (outer != nullptr)
     for (const TriangleId t : outer->triangles.ids()) facing.push_back({.corners = corners(*outer, t), .base_lines = {k_none, k_none, k_none}});
   return LayerRoom(std::move(facing), context);

@@ -36,7 +36,6 @@ constexpr double k_sum_tolerance = 1e-12;
 constexpr double k_most_power = 3.0, k_most_exponent = 3.0;
 constexpr double k_most_change = 10.0;  ///< largest change of a ratio, times the height over the edge; it inclines faces by less than 68 degrees
 constexpr double k_growth_rounding = 1e-6;
-constexpr std::uint32_t k_no_tet = 0xffffffffu;
 constexpr std::size_t k_search_chunk = 1 << 13;
 
 /// Returns the cost of a value, given relative to its limit; zero within the limit.
@@ -251,7 +250,7 @@ double LineSlider::excess_of_side(std::size_t side) const {
   return excess(side_shape(lines, first, n, centre_in(own), centre_in(beyond)), k_good_cut_share);
 }
 
-/// Returns for each column the tetrahedron on its top; k_no_tet if there is none.
+/// Returns for each column the tetrahedron on its top; k_none if there is none.
 std::vector<std::uint32_t> LineSlider::tets_on_columns(const TetraResult& tets) const {
   struct Top {
     std::array<std::uint32_t, 3> corners;
@@ -266,7 +265,7 @@ std::vector<std::uint32_t> LineSlider::tets_on_columns(const TetraResult& tets) 
     std::ranges::sort(top.corners);
   }
   parallel_sort(context_, tops, std::less<>());
-  std::vector<std::uint32_t> tet_on(mesh_.layers.n_columns(), k_no_tet);
+  std::vector<std::uint32_t> tet_on(mesh_.layers.n_columns(), k_none);
   parallel_for(context_, tets.tetrahedra.size(), [&](std::size_t t) {
     const auto& c = tets.tetrahedra[t];
     if (std::ranges::count_if(c, [&](std::uint32_t v) { return v < n_lines; }) < 3) return;
@@ -330,7 +329,7 @@ std::vector<LineSlider::Fault> LineSlider::find_faults(const TetraResult& tets, 
       context_, tet_on.size(),
       [&](std::size_t begin, std::size_t end, std::vector<Fault>& found) {
         for (std::size_t column = begin; column < end; ++column) {
-          if (tet_on[column] == k_no_tet) continue;
+          if (tet_on[column] == k_none) continue;
           const double excess = interface_of(tets, static_cast<std::uint32_t>(column), tet_on[column]).worst() / k_reserve;
           if (excess <= 1.0) continue;
           // The three vertices of the column, and possibly one across a fold.
@@ -360,7 +359,6 @@ std::vector<LineSlider::Fault> LineSlider::find_faults(const TetraResult& tets, 
 }
 
 std::vector<LineSlider::Star> LineSlider::stars_of(const TetraResult& tets, const std::vector<Fault>& faults, const std::vector<std::uint32_t>& tet_on) const {
-  constexpr std::uint32_t k_none = 0xffffffffu;
   std::vector<std::uint32_t> star_of(mesh_.layers.n_lines(), k_none);
   for (std::size_t i = 0; i < faults.size(); ++i) star_of[faults[i].line] = static_cast<std::uint32_t>(i);
   std::vector<Star> stars(faults.size());
@@ -421,7 +419,7 @@ double LineSlider::cost(const TetraResult& tets, const Star& star, double stop_a
   for (const auto& pair : star.neighbours) sum += cost_of(excess_of_step(tets, pair) / k_reserve);
   for (const std::uint32_t t : star.tets) sum += cost_of(excess_of_tet(tets, t));
   for (std::size_t i = 0; i < star.columns.size() && sum < stop_at; ++i) {
-    if (star.tet_on[i] == k_no_tet) continue;
+    if (star.tet_on[i] == k_none) continue;
     const Interface interface = interface_of(tets, star.columns[i], star.tet_on[i]);
     for (const double excess : {interface.volume, interface.height, interface.weight}) sum += cost_of(excess / k_reserve);
   }

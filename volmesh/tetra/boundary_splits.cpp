@@ -54,7 +54,6 @@ class Finder {
 
   /// Finds the origin of each point. A point that two triangles use lies on their common edge. A point of a single triangle lies inside the triangle.
   void find_origins() {
-    constexpr std::uint32_t k_none = ~std::uint32_t{0};
     std::vector<std::array<std::uint32_t, 2>> users(splits_.points.size(), {k_none, k_none});
     for (std::size_t i = 0; i < splits_.triangles.size(); ++i) {
       const std::uint32_t parent = splits_.parents[i];

@@ -15,8 +15,6 @@ namespace {
 
 using Triangle = std::array<std::uint32_t, 3>;
 
-constexpr std::uint32_t k_no_node = 0xffffffffu;
-
 [[noreturn]] void throw_bad(std::string problem, std::vector<ErrorLocation> locations, std::string hint = {}) {
   throw Error({.code = ErrorCode::bad_argument,
                .attempted = "joining the two sides of baffles in the boundary of the tetrahedra",
@@ -43,7 +41,7 @@ struct SortedFace {
 
 /// Returns a number for the location of each point, in the order of the first points at the locations.
 std::vector<std::uint32_t> number_locations(const TetraBoundary& boundary, JoinedBoundary& joined) {
-  std::vector<std::uint32_t> order(boundary.points.size()), location(boundary.points.size(), k_no_node), first(boundary.points.size());
+  std::vector<std::uint32_t> order(boundary.points.size()), location(boundary.points.size(), k_none), first(boundary.points.size());
   std::iota(order.begin(), order.end(), 0u);
   const auto key = [&](std::uint32_t v) {
     const Vec3& p = boundary.points[v];
@@ -171,7 +169,7 @@ void part_baffles(const TetraBoundary& boundary, const JoinedBoundary& joined, T
 
   struct Entry {
     SortedFace face;
-    std::uint32_t tet;  ///< index in `tets`; k_no_node: the entry is a triangle of a sheet
+    std::uint32_t tet;  ///< index in `tets`; k_none: the entry is a triangle of a sheet
     bool operator<(const Entry& b) const { return face.corners != b.face.corners ? face.corners < b.face.corners : tet < b.tet; }
   };
   std::vector<Entry> entries;
@@ -180,7 +178,7 @@ void part_baffles(const TetraBoundary& boundary, const JoinedBoundary& joined, T
     for (const auto& f : k_baffle_tet_faces)
       if (has_sides(v[f[0]]) || has_sides(v[f[1]]) || has_sides(v[f[2]])) entries.push_back({SortedFace({v[f[0]], v[f[1]], v[f[2]]}), i});
   }
-  for (const Triangle& t : joined.baffles()) entries.push_back({SortedFace(t), k_no_node});
+  for (const Triangle& t : joined.baffles()) entries.push_back({SortedFace(t), k_none});
   std::sort(entries.begin(), entries.end());
 
   Sides sides(tets.size());
@@ -195,12 +193,12 @@ void part_baffles(const TetraBoundary& boundary, const JoinedBoundary& joined, T
     }
   };
   for_each_face([&](std::span<const Entry> same) {
-    if (same.size() != 2 || same[1].tet == k_no_node) return;
+    if (same.size() != 2 || same[1].tet == k_none) return;
     for (const std::uint32_t v : same[0].face.corners)
       if (has_sides(v)) sides.join(corner(same[0].tet, v), corner(same[1].tet, v));
   });
   for_each_face([&](std::span<const Entry> same) {
-    if (same.back().tet != k_no_node) return;
+    if (same.back().tet != k_none) return;
     for (const Entry& e : same.first(same.size() - 1)) {
       // For the tetrahedron on the first side, the outward face is the sheet's triangle with reversed orientation.
       const std::uint8_t side = e.face.is_odd != same.back().face.is_odd ? 1 : 2;

@@ -23,7 +23,7 @@ std::vector<ColumnSide> inner_sides(const HybridMesh& mesh) {
   check_parts::find_open_sides(mesh.layers, RunContext({.threads = 1}), &neighbours);
   std::vector<ColumnSide> sides;
   for (std::size_t i = 0; i < neighbours.size(); ++i)
-    for (int j = 0; neighbours[i] != check_parts::k_no_slot && j < mesh.layers.n_layers; ++j) sides.push_back({i / 3, i % 3, neighbours[i], j});
+    for (int j = 0; neighbours[i] != k_none && j < mesh.layers.n_layers; ++j) sides.push_back({i / 3, i % 3, neighbours[i], j});
   return sides;
 }
 

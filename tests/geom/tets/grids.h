@@ -66,7 +66,7 @@ inline std::set<std::array<std::array<double, 3>, 3>> boundary_of(const tets::Te
   std::set<std::array<std::array<double, 3>, 3>> faces;
   for (std::uint32_t t = 0; t < mesh.nodes.size(); ++t) {
     for (std::size_t i = 0; mesh.is_alive(t) && i < 4; ++i) {
-      if (mesh.neighbours[t][i] != tets::k_none) continue;
+      if (mesh.neighbours[t][i] != k_none) continue;
       std::array<std::array<double, 3>, 3> face;
       for (std::size_t k = 0; k < 3; ++k) {
         const Vec3& p = mesh.points[mesh.nodes[t][tets::k_face[i][k]]];
@@ -87,7 +87,7 @@ inline bool is_sound(const tets::TetMesh& mesh) {
     if (orient3d(mesh.points[v[0]], mesh.points[v[1]], mesh.points[v[2]], mesh.points[v[3]]) <= 0) return false;
     for (std::size_t i = 0; i < 4; ++i) {
       const std::uint32_t n = mesh.neighbours[t][i];
-      if (n == tets::k_none) continue;
+      if (n == k_none) continue;
       if (!mesh.is_alive(n / 4) || mesh.neighbours[n / 4][n % 4] != 4 * t + i) return false;
       std::set<std::uint32_t> mine, others;
       for (std::size_t k = 0; k < 3; ++k) {

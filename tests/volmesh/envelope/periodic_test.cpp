@@ -82,7 +82,7 @@ TEST(Periodic, PartnersHaveNormalsAndEdgesOfAllTriangles) {
     EXPECT_EQ(alike, (std::vector<VertexId>{a, b}));
   }
   for (const VertexId v : wall.points.ids()) {
-    if (base.group[v] == LayerBase::k_no_group) {
+    if (base.group[v] == k_none) {
       EXPECT_EQ(base.vertex_normal[v], alone.vertex_normal[v]);
     }
   }

@@ -399,13 +399,13 @@ TEST(Forcing, SlenderTetrahedronWithGoodAnglesForcesNothing) {
   // Corners of 0.6 degrees, dihedral angles of 60 and 90 degrees.
   const Filled needle = one_tetrahedron({{0.01, 0, 0}, {-0.005, 0.00866, 0}, {-0.005, -0.00866, 0}, {0, 0, 1}});
   ASSERT_GT(needle.worst(1.0), std::sin(12 * k_degree));
-  EXPECT_THAT(forcing_of_all(needle), testing::Each(k_unforced));
+  EXPECT_THAT(forcing_of_all(needle), testing::Each(k_none));
 }
 
 TEST(Forcing, FlatTetrahedronIsForcedOnAllTriangles) {
   const Filled flat = one_tetrahedron({{0, 0, 0}, {1, 0, 0.02}, {1, 1, 0}, {0, 1, 0.02}});
   ASSERT_GT(flat.worst(1.0), 0.0);
-  EXPECT_THAT(forcing_of_all(flat), testing::Each(testing::Ne(k_unforced)));
+  EXPECT_THAT(forcing_of_all(flat), testing::Each(testing::Ne(k_none)));
 }
 
 TEST(Forcing, SheetsForceEachOtherOnlyWhenCoresOverlap) {
@@ -419,7 +419,7 @@ TEST(Forcing, SheetsForceEachOtherOnlyWhenCoresOverlap) {
     return forcing_of_all(filled);
   };
   EXPECT_THAT(sheets(1.9 * core), testing::ElementsAre(1u, 0u));
-  EXPECT_THAT(sheets(2.1 * core), testing::Each(k_unforced));
+  EXPECT_THAT(sheets(2.1 * core), testing::Each(k_none));
 }
 
 TEST(Improve, ThinSlabIsForcedAndCubeIsNot) {
