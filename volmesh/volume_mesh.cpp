@@ -70,9 +70,13 @@ void tell_needles(const NeedleReport& needles, const NeedleOptions& options, con
                "); the first one is at " + format_point(needles.first_left) + hint);
 }
 
-/// Returns the boundary for engines. \p is_clear true if it has already been verified; false if patches were re-meshed
-TetraBoundary boundary_for_engines(const FillBoundary& boundary, std::span<const Point> holes, bool is_clear, bool may_split) {
-  return {boundary.points, boundary.triangles, holes, is_clear, boundary.patch_names, boundary.triangle_patch, may_split};
+TetraBoundary boundary_for_engines(const FillBoundary& boundary, std::span<const Point> holes, ClearProof clear) {
+  return {.points = boundary.points,
+          .triangles = boundary.triangles,
+          .hole_points = holes,
+          .clear = clear,
+          .patch_names = boundary.patch_names,
+          .triangle_patch = boundary.triangle_patch};
 }
 
 /// Result of one attempt to make the tetrahedra.
@@ -81,6 +85,7 @@ struct Filling {
   std::optional<SplitLayer> split;  ///< set if the engine has split triangles: the layer with the same splits
   std::optional<LayerProof> proof;  ///< verification of the layer that the tetrahedra surround
   std::vector<Point> holes;
+  ClearProof clear;  ///< proof for the boundary
 };
 
 /// Fills the volume inside the split boundary again, which is now kept, after the layer had to be lowered for the splits.
@@ -88,7 +93,7 @@ void refill(const SplitLayer& layer, const MeshCase& options, TetraResult& tets,
   TetraOptions keeping = options.tetrahedra;
   keeping.boundary_splits = "never";
   const std::vector<Point> holes = find_cavity_points(*layer.wall, context);
-  const TetraBoundary domain = boundary_for_engines(layer.boundary, holes, true, false);
+  const TetraBoundary domain = boundary_for_engines(layer.boundary, holes, layer.certificate.clear);
   SizeSupply sizes(domain, options.sources, options.size, context);
   tets = fill(domain, sizes, keeping, context);
 }
@@ -116,8 +121,10 @@ Filling fill_around(const MeshingSite& site, const Envelope& envelope, const Lai
   Filling filling;
   // The boundary must stay unchanged if layers end on other patches, if sides are periodic, if ridges are opened, or if wakes have sheets.
   const bool may_split = site.base.wall.n_triangles() > 0 && !site.domain.has_rims() && site.domain.periodic.empty() && !site.domain.is_opened();
+  const SplitPermission splits = may_split ? SplitPermission::permitted : SplitPermission::never;
   filling.holes = find_cavity_points(site.domain.bodies, context);
-  TetraBoundary domain = boundary_for_engines(layer.boundary, filling.holes, !site.domain.has_rims(), may_split);
+  // The certificate does not include patches that were re-meshed around the layer.
+  TetraBoundary domain = boundary_for_engines(layer.boundary, filling.holes, site.domain.has_rims() ? ClearProof() : layer.certificate.clear);
   domain.has_sheets = !site.options.discs.empty();
   domain.has_wakes = !site.domain.sheets.is_empty();
   const CellCounts cells = count_cells(layer.mesh);
@@ -127,13 +134,14 @@ Filling fill_around(const MeshingSite& site, const Envelope& envelope, const Lai
     require_room(forecast, site.options.limits, side);
   });
   const StepEnds ends = step_ends(context.threads());
-  TetraLadder ladder(domain, &sizes, site.options.tetrahedra, context.part("tetrahedra", ends.prisms, ends.tetrahedra));
+  TetraLadder ladder(domain, &sizes, site.options.tetrahedra, splits, context.part("tetrahedra", ends.prisms, ends.tetrahedra));
+  filling.clear = ladder.proof();
   Alongside<LayerProof> proof(context, ladder.begins_here() ? context.threads() : context.threads() - 1, [&sizes, &layer](const RunContext& side) {
     sizes.wait();  // the verification waits, because the engine needs the sizes sooner
     return prove_layer(layer.mesh, side);
   });
   climb(site, envelope, makers, ladder, filling, context);
-  filling.proof.emplace(proof.take());
+  filling.proof.emplace(std::move(proof).take());
   return filling;
 }
 
@@ -334,7 +342,7 @@ FilledStage make_tetrahedra(MeshingSite& site, EnvelopeStage stage, const Makers
   require_proved_cells(filling.proof->cells, layer.certificate);
 
   knowledge = {std::move(layer.report), std::move(layer.certificate), std::move(filling.proof->check), {}, {}};
-  if (!filling.split) knowledge.second = second_engine(site.options, std::move(filling.holes), !site.domain.sheets.is_empty());
+  if (!filling.split) knowledge.second = second_engine(site.options, std::move(filling.holes), filling.clear, !site.domain.sheets.is_empty());
   filled.envelope = std::move(stage);
   filled.is_opened = layer.opened.has_value();
   if (filled.is_opened) {
@@ -348,11 +356,12 @@ FilledStage make_tetrahedra(MeshingSite& site, EnvelopeStage stage, const Makers
   return filled;
 }
 
-SecondEngine second_engine(const MeshCase& options, std::vector<Point> holes, bool has_wakes) {
+SecondEngine second_engine(const MeshCase& options, std::vector<Point> holes, ClearProof clear, bool has_wakes) {
   return {.tetrahedra = options.tetrahedra,
           .sources = options.sources,
           .sizes = options.size,
           .holes = std::move(holes),
+          .clear = clear,
           .has_sheets = !options.discs.empty(),
           .has_wakes = has_wakes};
 }

@@ -65,7 +65,8 @@ void TriangleGrid::remove(std::uint32_t triangle, const Box& box) {
 
 // ---- Queries ----
 
-StripMesh::StripMesh(std::vector<Vec3> given_points, std::vector<StripTriangle> given_triangles, const StripLimits& limits, const TriangleTree& reference)
+StripMesh::StripMesh(std::vector<Vec3> given_points, std::vector<StripTriangle> given_triangles, const StripLimits& limits,
+                     Borrowed<const TriangleTree> reference)
     : points(std::move(given_points)),
       triangles(std::move(given_triangles)),
       is_alive(triangles.size(), 0),

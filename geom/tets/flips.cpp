@@ -29,11 +29,11 @@ bool has(const Corners& v, std::uint32_t node) { return v[0] == node || v[1] == 
 
 }  // namespace
 
-Flips::Flips(TetMesh& mesh, const FacetIndex& wanted) : mesh_(mesh), wanted_(wanted) {
-  tet_at_.assign(mesh.points.size(), k_none);
-  for (std::uint32_t t = 0; t < mesh.nodes.size(); ++t) {
-    if (!mesh.is_alive(t)) continue;
-    for (const std::uint32_t v : mesh.nodes[t]) tet_at_[v] = t;
+Flips::Flips(Borrowed<TetMesh> mesh, Borrowed<const FacetIndex> wanted) : mesh_(mesh), wanted_(wanted) {
+  tet_at_.assign(mesh->points.size(), k_none);
+  for (std::uint32_t t = 0; t < mesh->nodes.size(); ++t) {
+    if (!mesh->is_alive(t)) continue;
+    for (const std::uint32_t v : mesh->nodes[t]) tet_at_[v] = t;
   }
 }
 

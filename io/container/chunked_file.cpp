@@ -66,7 +66,7 @@ std::size_t size_of(NumberType type) {
 
 bool is_chunked_file(std::string_view head) { return head.starts_with(k_magic); }
 
-ChunkedWriter::ChunkedWriter(AtomicFile& file) : file_(file) { file_.append(std::string(k_head_bytes, '\0')); }
+ChunkedWriter::ChunkedWriter(Borrowed<AtomicFile> file) : file_(file) { file_.append(std::string(k_head_bytes, '\0')); }
 
 void ChunkedWriter::pack(std::string_view name, NumberType type, std::uint32_t n_components, std::uint64_t n_values, const FindValues& find,
                          const RunContext& context) {
@@ -148,8 +148,8 @@ void ChunkedWriter::finish(std::uint32_t version) {
   file_.overwrite(0, head);
 }
 
-ChunkedReader::ChunkedReader(const FileBuffer& buffer) : buffer_(buffer) {
-  const std::string_view text = buffer.text();
+ChunkedReader::ChunkedReader(Borrowed<const FileBuffer> buffer) : buffer_(buffer) {
+  const std::string_view text = buffer_.text();
   if (!is_chunked_file(text))
     throw_malformed(buffer.source, "byte 0", "found " + quoted_excerpt(text.substr(0, k_magic.size())) + ", expected the head of a .sterna file");
   ByteReader head(buffer, std::endian::little, k_magic.size());

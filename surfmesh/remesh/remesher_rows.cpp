@@ -35,95 +35,123 @@ constexpr double k_straight_on = 0.5;
 
 }  // namespace
 
-/// Splits each vertex on the lines into one copy for each fan of triangles around it.
-void Remesher::open_lines(std::span<const LineRows> rows) {
-  front_ = static_cast<std::int32_t>(r_.lines.size());
-  locked_.resize(r_.lines.size() + 1, 0);
-  locked_.back() = 1;
-  std::vector<const LineRows*> rows_of(r_.lines.size(), nullptr);
-  for (const LineRows& l : rows) rows_of[static_cast<std::size_t>(l.line)] = &l;
+/// The lines with rows while the mesh is opened along them.
+struct Remesher::Opening {
   struct Cut {
     std::uint32_t halfedge;
     const SideRows* side;  ///< null if there are no rows on this side
   };
+  /// Half-edges of the border that end and begin at a column's vertex.
+  struct Border {
+    std::uint32_t in, out;
+  };
+  std::vector<const LineRows*> rows_of;  ///< rows of each line; null if there are none
   std::vector<Cut> cuts;
-  std::vector<std::uint32_t> touched;
-  std::vector<const SideRows*> side_of(mesh_.twin.size(), nullptr);
+  std::vector<const SideRows*> side_of;  ///< rows in front of each half-edge; null if there are none
+  std::vector<std::uint32_t> touched;    ///< vertices of the cuts, ascending
+  std::vector<Border> borders;           ///< border at each column
+
+  const LineRows& rows(std::int32_t line) const { return *rows_of[static_cast<std::size_t>(line)]; }
+};
+
+/// Finds the half-edges and vertices of all lines with rows.
+Remesher::Opening Remesher::find_cuts(std::span<const LineRows> rows) {
+  Opening opening;
+  opening.rows_of.resize(r_.lines.size(), nullptr);
+  for (const LineRows& l : rows) opening.rows_of[static_cast<std::size_t>(l.line)] = &l;
+  opening.side_of.resize(mesh_.twin.size(), nullptr);
   for (std::uint32_t h = 0; h < mesh_.twin.size(); ++h) {
     const std::int32_t l = mesh_.line[h];
-    if (mesh_.is_gone(h / 3) || l == k_no_line || rows_of[static_cast<std::size_t>(l)] == nullptr) continue;
+    if (mesh_.is_gone(h / 3) || l == k_no_line || opening.rows_of[static_cast<std::size_t>(l)] == nullptr) continue;
     const bool is_along = s_on_line(mesh_.from(h), l) < s_on_line(mesh_.to(h), l);
-    const SideRows& side = rows_of[static_cast<std::size_t>(l)]->sides[is_along ? 0 : 1];
-    cuts.push_back({h, side.is_any ? &side : nullptr});
-    side_of[h] = cuts.back().side;
-    touched.push_back(mesh_.from(h));
+    const SideRows& side = opening.rows(l).sides[is_along ? 0 : 1];
+    opening.cuts.push_back({h, side.is_any ? &side : nullptr});
+    opening.side_of[h] = opening.cuts.back().side;
+    opening.touched.push_back(mesh_.from(h));
   }
-  std::sort(touched.begin(), touched.end());
-  touched.erase(std::unique(touched.begin(), touched.end()), touched.end());
+  std::sort(opening.touched.begin(), opening.touched.end());
+  opening.touched.erase(std::unique(opening.touched.begin(), opening.touched.end()), opening.touched.end());
+  return opening;
+}
+
+/// Separates the triangles on both sides of the cuts. Each vertex is replaced by one copy for each fan of triangles around it, and copies with rows on both
+/// edges of their fan start a column.
+void Remesher::cut_apart(Opening& opening) {
   std::vector<std::vector<std::uint32_t>> around;
-  for (const std::uint32_t v : touched) {
+  for (const std::uint32_t v : opening.touched) {
     around.emplace_back();
     mesh_.for_out(v, [&](std::uint32_t h) { around.back().push_back(h); });
   }
-  for (const Cut& cut : cuts) {
+  for (const Opening::Cut& cut : opening.cuts) {
     mesh_.twin[cut.halfedge] = k_none;
     locked_[static_cast<std::size_t>(mesh_.line[cut.halfedge])] = 1;
   }
-  struct Border {
-    std::size_t column;
-    std::uint32_t in, out;  ///< half-edges of the border that end and begin at the column's vertex
-  };
-  std::vector<Border> borders;
-  for (std::size_t i = 0; i < touched.size(); ++i) {
-    for (const std::uint32_t first : around[i]) {
-      if (mesh_.twin[first] != k_none) continue;
-      const auto copy = static_cast<std::uint32_t>(mesh_.vertices.size());
-      WorkVertex v = mesh_.vertices[touched[i]];
-      v.out = first;
-      v.is_fixed = true;
-      bool has_line = false;
-      std::uint32_t in = k_none;
-      for (std::uint32_t h = first; h != k_none; h = mesh_.twin[in]) {
-        mesh_.triangles[h / 3][h % 3] = copy;
-        has_line = has_line || (h != first && mesh_.line[h] != k_no_line);
-        in = WorkMesh::prev(h);
-      }
-      mesh_.vertices.push_back(v);
-      copies_.emplace_back(copy, touched[i]);
-      if (side_of[first] == nullptr || side_of[in] == nullptr || has_line) continue;
-      borders.push_back({columns_.size(), in, first});
-      LineColumn column;
-      column.vertex = copy;
-      column.wish = side_of[first];
-      columns_.push_back(column);
-    }
-    mesh_.vertices[touched[i]].out = k_none;
+  for (std::size_t i = 0; i < opening.touched.size(); ++i) {
+    for (const std::uint32_t first : around[i])
+      if (mesh_.twin[first] == k_none) copy_fan(opening.touched[i], first, opening);
+    mesh_.vertices[opening.touched[i]].out = k_none;
   }
+}
+
+/// Gives a copy of a vertex to the fan of triangles that begins at the half-edge `first`.
+void Remesher::copy_fan(std::uint32_t v, std::uint32_t first, Opening& opening) {
+  const auto copy = static_cast<std::uint32_t>(mesh_.vertices.size());
+  WorkVertex vertex = mesh_.vertices[v];
+  vertex.out = first;
+  vertex.is_fixed = true;
+  bool has_line = false;
+  std::uint32_t in = k_none;
+  for (std::uint32_t h = first; h != k_none; h = mesh_.twin[in]) {
+    mesh_.triangles[h / 3][h % 3] = copy;
+    has_line = has_line || (h != first && mesh_.line[h] != k_no_line);
+    in = WorkMesh::prev(h);
+  }
+  mesh_.vertices.push_back(vertex);
+  copies_.emplace_back(copy, v);
+  if (opening.side_of[first] == nullptr || opening.side_of[in] == nullptr || has_line) return;
+  opening.borders.push_back({in, first});
+  LineColumn column;
+  column.vertex = copy;
+  column.wish = opening.side_of[first];
+  columns_.push_back(column);
+}
+
+/// Sets the neighbours, the first row and the room of a column.
+void Remesher::start_column(std::size_t number, const std::vector<std::size_t>& column_of, const Opening& opening) {
+  LineColumn& column = columns_[number];
+  const Opening::Border& border = opening.borders[number];
+  column.before = mesh_.from(border.in);
+  column.after = mesh_.to(border.out);
+  column.before_column = column_of[column.before];
+  column.after_column = column_of[column.after];
+  const Point& p = mesh_.at(column.vertex);
+  column.spacing = 0.5 * (distance(p, mesh_.at(column.before)) + distance(p, mesh_.at(column.after)));
+  // The vertex on the line needs the normal of this side. If both sides are in one smooth piece, the hints of triangles may be from the other side.
+  const std::int32_t l = mesh_.line[border.out];
+  const FeatureLine& line = r_.lines[static_cast<std::size_t>(l)];
+  column.is_nose = opening.rows(l).is_nose;
+  const double s_here = s_on_line(column.vertex, l);
+  const std::size_t segment = r_.line_place(l, s_here).segment;
+  HalfedgeId h = line.halfedges[segment];
+  if ((r_.topology.from(h) == line.vertices[segment]) != (s_here < s_on_line(column.after, l))) h = r_.topology.twin(h);
+  WorkVertex foot = mesh_.vertices[column.vertex];
+  foot.foot = r_.nearest(p, triangle_of(h));
+  foot.normal = r_.normal(foot.foot);
+  column.rows.push_back(foot);
+  column.room = k_share_of_chord * width_across(r_, h, 1e3 * column.spacing);
+}
+
+/// Opens the mesh along the lines with rows. \pre there are no columns yet
+void Remesher::open_lines(std::span<const LineRows> rows) {
+  front_ = static_cast<std::int32_t>(r_.lines.size());
+  locked_.resize(r_.lines.size() + 1, 0);
+  locked_.back() = 1;
+  Opening opening = find_cuts(rows);
+  cut_apart(opening);
   std::vector<std::size_t> column_of(mesh_.vertices.size(), k_no_column);
   for (std::size_t c = 0; c < columns_.size(); ++c) column_of[columns_[c].vertex] = c;
-  for (const Border& b : borders) {
-    LineColumn& column = columns_[b.column];
-    column.before = mesh_.from(b.in);
-    column.after = mesh_.to(b.out);
-    column.before_column = column_of[column.before];
-    column.after_column = column_of[column.after];
-    const Point& p = mesh_.at(column.vertex);
-    column.spacing = 0.5 * (distance(p, mesh_.at(column.before)) + distance(p, mesh_.at(column.after)));
-    // The vertex on the line needs the normal of this side. If both sides are in one smooth piece, the hints of triangles may be from the other side.
-    const std::int32_t l = mesh_.line[b.out];
-    const FeatureLine& line = r_.lines[static_cast<std::size_t>(l)];
-    column.is_nose = rows_of[static_cast<std::size_t>(l)]->is_nose;
-    const double s_here = s_on_line(column.vertex, l);
-    const std::size_t segment = r_.line_place(l, s_here).segment;
-    HalfedgeId h = line.halfedges[segment];
-    if ((r_.topology.from(h) == line.vertices[segment]) != (s_here < s_on_line(column.after, l))) h = r_.topology.twin(h);
-    WorkVertex foot = mesh_.vertices[column.vertex];
-    foot.foot = r_.nearest(p, triangle_of(h));
-    foot.normal = r_.normal(foot.foot);
-    column.rows.push_back(foot);
-    column.room = k_share_of_chord * width_across(r_, h, 1e3 * column.spacing);
-  }
-  for (const Cut& cut : cuts) {
+  for (std::size_t c = 0; c < columns_.size(); ++c) start_column(c, column_of, opening);
+  for (const Opening::Cut& cut : opening.cuts) {
     if (cut.side == nullptr) continue;
     const std::uint32_t a = mesh_.from(cut.halfedge), b = mesh_.to(cut.halfedge);
     row_edges_.push_back({a, b, column_of[a], column_of[b], mesh_.hint[cut.halfedge / 3]});

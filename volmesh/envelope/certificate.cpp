@@ -121,6 +121,7 @@ EnvelopeCertificate certify_envelope(const LayerBase& base, Collider& collider, 
   certificate.n_pairs = collider.n_pairs();
   certificate.n_triangles = collider.n_triangles();
   certificate.n_swallowings = static_cast<std::int64_t>(collider.swallowings(envelope).size());
+  certificate.clear = ClearProof(certificate.n_crossings == 0 && certificate.n_swallowings == 0);
 
   const MacroCount macros = parallel_reduce(
       context, base.wall.n_triangles(), MacroCount{},

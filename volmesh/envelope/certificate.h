@@ -4,6 +4,7 @@
 #include <cstdint>
 #include <string>
 
+#include "volmesh/case/clear_proof.h"
 #include "volmesh/envelope/collide.h"
 
 namespace sterna::volmesh {
@@ -31,6 +32,7 @@ struct EnvelopeCertificate {
   std::int64_t n_layer_cells = 0;
   std::int64_t n_invalid_layer_cells = 0;
   WorstElement worst_layer_cell;
+  ClearProof clear = {};  ///< given if there are neither crossings nor swallowings
 
   bool is_proved() const { return n_crossings == 0 && n_swallowings == 0 && n_invalid_macro_elements == 0 && n_invalid_layer_cells == 0; }
 };

@@ -35,8 +35,8 @@ std::vector<VertexId> dilated(const LayerBase& base, std::vector<VertexId> verti
 
 }  // namespace
 
-Curving::Curving(const LayerBase& base, double wanted)
-    : base_(base), wanted_(wanted), c_t_(base.wall.n_vertices(), wanted), limit_(base.wall.n_vertices(), wanted) {}
+Curving::Curving(Borrowed<const LayerBase> base, double wanted)
+    : base_(base), wanted_(wanted), c_t_(base->wall.n_vertices(), wanted), limit_(base->wall.n_vertices(), wanted) {}
 
 void Curving::limit(VertexId v, double c_t) {
   for_each_alike(base_, v, [&](VertexId w) {

@@ -29,7 +29,8 @@ Extrusion extrude_clear_of_collisions(const LayerBase& base, const MeshCase& opt
     extruder.extrude(envelope);
     const std::vector<VertexId> repaired = difference(before, envelope, context).vertices;
     const bool is_equal = equalise_partners(base, options.envelope, &collider, envelope, context).empty();
-    if ((repaired.empty() || !retract_collisions(base, options.envelope, collider, envelope, context, &repaired)) && is_equal) return extruder.take();
+    if ((repaired.empty() || !retract_collisions(base, options.envelope, collider, envelope, context, &repaired)) && is_equal)
+      return std::move(extruder).take();
     if (round < k_max_clear_rounds) continue;
     std::vector<VertexId> disturbed = difference(before, envelope, context).vertices;
     for (const VertexId v : disturbed) lower(envelope, v, 0.0, HeightLimit::prism, scale);

@@ -86,22 +86,23 @@ void keep_fans(const LayerBase& base, const EnvelopeScale& scale, std::vector<st
 
 }  // namespace
 
-LayerNumbers::LayerNumbers(const LayerBase& base, const EnvelopeScale& scale, const Envelope& envelope, Truncation truncation, const RunContext& context)
-    : base_(base), layers_(base.wall.n_vertices()), least_(layers_.size()), thin_from_(layers_.size()), asked_(layers_.size()), is_fixed_(layers_.size(), 0) {
+LayerNumbers::LayerNumbers(Borrowed<const LayerBase> base, const EnvelopeScale& scale, const Envelope& envelope, Truncation truncation,
+                           const RunContext& context)
+    : base_(base), layers_(base->wall.n_vertices()), least_(layers_.size()), thin_from_(layers_.size()), asked_(layers_.size()), is_fixed_(layers_.size(), 0) {
   const LineTruncation lines(base, scale, envelope);
   parallel_for(context, layers_.size(), [&](std::size_t i) {
     const VertexId v(i);
     const int all = scale.n(v);
     asked_[i] = static_cast<std::uint16_t>(all);
     LineChoice choice{all, all, all + 1};
-    is_fixed_[i] = envelope.is_collapsed(v) || base.topology.outgoing(v).empty();
-    const Truncation own = base.truncation.empty() ? truncation : base.truncation[v];
+    is_fixed_[i] = envelope.is_collapsed(v) || base->topology.outgoing(v).empty();
+    const Truncation own = base->truncation.empty() ? truncation : base->truncation[v];
     if (!is_fixed_[i] && own != Truncation::never) choice = lines.choose(v, own);
     layers_[i] = static_cast<std::uint16_t>(choice.wanted);
     least_[i] = static_cast<std::uint16_t>(choice.least);
     thin_from_[i] = static_cast<std::uint16_t>(choice.thin_from);
   });
-  if (truncation == Truncation::never && base.truncation.empty()) return;
+  if (truncation == Truncation::never && base->truncation.empty()) return;
   keep_fans(base, scale, least_);
   for (std::size_t i = 0; i < layers_.size(); ++i) layers_[i] = std::max(layers_[i], least_[i]);
   close_downwards();

@@ -15,6 +15,12 @@ using test::Domain;
 using test::domain_around;
 using test::expect_tiling;
 
+// A supply refers to the field, or to the boundary and the sources.
+static_assert(std::is_constructible_v<SizeSupply, const SizeField&> && !std::is_constructible_v<SizeSupply, SizeField>);
+static_assert(std::is_constructible_v<SizeSupply, TetraBoundary&, std::vector<SizeSource>&, SizeFieldOptions, RunContext>);
+static_assert(!std::is_constructible_v<SizeSupply, TetraBoundary, std::vector<SizeSource>&, SizeFieldOptions, RunContext>);
+static_assert(!std::is_constructible_v<SizeSupply, TetraBoundary&, std::vector<SizeSource>, SizeFieldOptions, RunContext>);
+
 class SizedFill : public testing::TestWithParam<std::string> {
  protected:
   TetraResult fill(const SizeField& sizes, int threads = 1) const {
