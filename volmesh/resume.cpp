@@ -49,7 +49,8 @@ LayerKnowledge reprove(const LayerBase& base, Collider& collider, const Domain& 
                        const RunContext& context) {
   require_clear_input(collider, context);
   LayerKnowledge knowledge;
-  knowledge.certificate = certify_envelope(base, collider, filled.envelope.envelope, context);
+  const TestedEnvelope tested = certify_envelope(base, collider, filled.envelope.envelope, context);
+  knowledge.certificate = tested;
   EnvelopeOptions envelope_options = options.envelope;
   envelope_options.feature_angle = filled.envelope.feature_angle;
   Extrusion extrusion{.layers = std::move(filled.layers.layers),
@@ -60,7 +61,7 @@ LayerKnowledge reprove(const LayerBase& base, Collider& collider, const Domain& 
   filled.layers.points.raw() = std::move(extrusion.points);
   filled.layers.request = layer_request(base, envelope_options, filled.envelope.envelope, filled.layers.layers);
   open_slits(domain, filled.layers.request);
-  ClearProof clear = knowledge.certificate.clear;
+  ClearProof clear = tested.clear;
   if (domain.has_rims()) {
     const FillBoundary boundary = boundary_of(filled.layers);
     TetraBoundary for_engines{.points = boundary.points,

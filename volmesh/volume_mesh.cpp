@@ -93,7 +93,7 @@ void refill(const SplitLayer& layer, const MeshCase& options, TetraResult& tets,
   TetraOptions keeping = options.tetrahedra;
   keeping.boundary_splits = "never";
   const std::vector<Point> holes = find_cavity_points(*layer.wall, context);
-  const TetraBoundary domain = boundary_for_engines(layer.boundary, holes, layer.certificate.clear);
+  const TetraBoundary domain = boundary_for_engines(layer.boundary, holes, layer.clear);
   SizeSupply sizes(domain, options.sources, options.size, context);
   tets = fill(domain, sizes, keeping, context);
 }
@@ -123,8 +123,7 @@ Filling fill_around(const MeshingSite& site, const Envelope& envelope, const Lai
   const bool may_split = site.base.wall.n_triangles() > 0 && !site.domain.has_rims() && site.domain.periodic.empty() && !site.domain.is_opened();
   const SplitPermission splits = may_split ? SplitPermission::permitted : SplitPermission::never;
   filling.holes = find_cavity_points(site.domain.bodies, context);
-  // The certificate does not include patches that were re-meshed around the layer.
-  TetraBoundary domain = boundary_for_engines(layer.boundary, filling.holes, site.domain.has_rims() ? ClearProof() : layer.certificate.clear);
+  TetraBoundary domain = boundary_for_engines(layer.boundary, filling.holes, layer.clear);
   domain.has_sheets = !site.options.discs.empty();
   domain.has_wakes = !site.domain.sheets.is_empty();
   const CellCounts cells = count_cells(layer.mesh);
@@ -162,6 +161,7 @@ LaidLayer adopted(SplitLayer& split, const LaidLayer& unsplit, const EnvelopeOpt
                std::to_string(split.boundary.triangles.size() - unsplit.boundary.triangles.size()) + " more triangles");
   LaidLayer layer;
   layer.certificate = split.certificate;
+  layer.clear = split.clear;
   layer.report = report_layer(*split.base, options, split.envelope, split.extrusion, split.outer.get(), context);
   layer.curving_shares = split.extrusion.curving_shares;
   layer.mesh = assemble_layers(*split.base, std::move(split.extrusion), unlinked(*split.outer), {});

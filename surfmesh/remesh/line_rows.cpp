@@ -182,9 +182,9 @@ std::optional<WingLine> wing_line_of(const Reference& r, std::int32_t number, co
   return base ? std::optional(WingLine{.kind = BandKind::trailing, .base = base}) : std::nullopt;
 }
 
-/// Returns the rows on both sides of a line. \p wishes requested rows of each patch
+/// Returns the rows on both sides of a line. \p requests rows requested on each patch
 LineRows rows_of(const Reference& r, std::int32_t number, const LineShape& shape, const WingLine& wing_line, const SurfaceLimitTable& limits_of,
-                 const std::vector<BandWishes>& wishes) {
+                 const std::vector<BandWishes>& requests) {
   const FeatureLine& line = r.lines[static_cast<std::size_t>(number)];
   LineRows rows{.line = number, .sides = {}, .longest = std::numeric_limits<double>::infinity()};
   HalfedgeId left = line.halfedges.front();
@@ -192,7 +192,7 @@ LineRows rows_of(const Reference& r, std::int32_t number, const LineShape& shape
   const std::array<TriangleId, 2> beside{triangle_of(left), triangle_of(r.topology.twin(left))};
   for (std::size_t i = 0; i < 2; ++i) {
     if (wing_line.base == i) continue;
-    const BandWishes& wish = wishes[r.mesh->triangle_patch[beside[i]].index()];
+    const BandWishes& wish = requests[r.mesh->triangle_patch[beside[i]].index()];
     const BandWish& band = wing_line.kind == BandKind::leading ? wish.leading : wish.trailing;
     if (!band.is_any()) continue;
     const SurfaceLimits& limits = limits_of.of(beside[i]);

@@ -89,7 +89,7 @@ struct MeasuredWrap {
   const WrapSizes& sizes;
   TriMesh mesh;
   Topology topology;
-  std::vector<TriangleFinding> found = {};                       ///< of each triangle
+  std::vector<TriangleFinding> found = {};                       ///< findings for each triangle
   std::vector<char> is_far = {}, is_closure = {}, is_leak = {};  ///< flags of each triangle; far: beyond the tolerance
 };
 

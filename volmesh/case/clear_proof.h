@@ -8,11 +8,11 @@ class RunContext;
 namespace sterna::volmesh {
 
 class Collider;
-struct EnvelopeCertificate;
 struct EnvelopeShape;
 struct LayerBase;
 struct PreflightLimits;
 struct PreflightReport;
+struct TestedEnvelope;
 struct TetraBoundary;
 
 /// States whether the triangles of a boundary are proved to meet only in shared vertices and edges. Only the functions that test this make a proof; all others
@@ -24,7 +24,7 @@ class ClearProof {
 
  private:
   explicit ClearProof(bool is_clear) : is_given_(is_clear) {}
-  friend EnvelopeCertificate certify_envelope(const LayerBase& base, Collider& collider, const EnvelopeShape& envelope, const RunContext& context);
+  friend TestedEnvelope certify_envelope(const LayerBase& base, Collider& collider, const EnvelopeShape& envelope, const RunContext& context);
   friend PreflightReport preflight(const TetraBoundary& boundary, const PreflightLimits& limits, const RunContext& context);
 
   bool is_given_ = false;

@@ -32,7 +32,6 @@ struct EnvelopeCertificate {
   std::int64_t n_layer_cells = 0;
   std::int64_t n_invalid_layer_cells = 0;
   WorstElement worst_layer_cell;
-  ClearProof clear = {};  ///< given if there are neither crossings nor swallowings
 
   bool is_proved() const { return n_crossings == 0 && n_swallowings == 0 && n_invalid_macro_elements == 0 && n_invalid_layer_cells == 0; }
 };
@@ -41,8 +40,13 @@ struct EnvelopeCertificate {
 /// \throws Error(self_intersection) with locations and geometry if the wall crosses itself or the outer boundary.
 std::int64_t require_clear_input(Collider& collider, const RunContext& context);
 
+/// A certificate as the tests return it, with their proof.
+struct TestedEnvelope : EnvelopeCertificate {
+  ClearProof clear;  ///< given if there are neither crossings nor swallowings
+};
+
 /// Tests the envelope against itself, sides, wall and outer boundary, and tests every macro-element. Counts failures, but does not throw.
-EnvelopeCertificate certify_envelope(const LayerBase& base, Collider& collider, const EnvelopeShape& envelope, const RunContext& context);
+TestedEnvelope certify_envelope(const LayerBase& base, Collider& collider, const EnvelopeShape& envelope, const RunContext& context);
 
 /// \throws Error(envelope_failed) with counts and the worst locations unless all tests have passed
 void require_proved(const EnvelopeCertificate& certificate);

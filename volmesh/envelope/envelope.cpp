@@ -31,7 +31,7 @@ std::string_view to_string(HeightLimit limit) {
 }
 
 EnvelopeScale::EnvelopeScale(Borrowed<const LayerBase> base, const EnvelopeOptions& options)
-    : base_(&base->get()),
+    : base_(&base.get()),
       demand_(&base->demand),
       has_common_growth_(sterna::volmesh::has_common_growth(options)),
       first_height_(options.first_height),

@@ -62,8 +62,10 @@ LaidLayer lay_out(MeshingSite& site, Envelope& envelope, const RunContext& conte
   }
   {
     const StageTimer timer(context, "certificate");
-    laid.certificate = certify_envelope(site.base, site.collider, envelope, context);
-    require_proved(laid.certificate);
+    const TestedEnvelope tested = certify_envelope(site.base, site.collider, envelope, context);
+    require_proved(tested);
+    laid.certificate = tested;
+    if (!site.domain.has_rims()) laid.clear = tested.clear;
   }
   laid.report = report_layer(site.base, site.options.envelope, envelope, extrusion, &site.domain.outer, context);
   laid.curving_shares = extrusion.curving_shares;
