@@ -125,7 +125,7 @@ double area_of(const WrapSurface& wrap) {
 struct GapTrial {
   double gap = 0.0, alpha = 0.0;  ///< m
   WrapSurface wrap;
-  double leaking = 0.0;  ///< result of leaking_share
+  std::optional<double> leaking;  ///< result of leaking_share; none if only one gap may be tried
 };
 
 /// What the steps of a wrap share. The first step makes it, each later step changes only the members that its comment names.
