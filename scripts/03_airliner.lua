@@ -1,7 +1,7 @@
--- An airliner from a table of numbers: fuselage, kinked wing with deflected ailerons, tails, engines on pylons; united to one closed surface.
+-- An airliner from a table of numbers: fuselage, kinked wing with deflected ailerons, tails, engines on pylons. All parts are united to one closed surface.
 --   ./run scripts/03_airliner.lua
---   sterna view scripts/03_airliner.lua         in the browser, with sliders for the arguments; follows the file as it is changed (docs/view.md)
--- Axes: x aft, y to starboard, z up; metres and radians (5*deg is an angle). Positive angles: nose up, trailing edge down.
+--   sterna view scripts/03_airliner.lua         opens the model in a browser, with sliders for the arguments; edits of this file are followed (docs/view.md)
+-- The axes: x aft, y to starboard, z up. Lengths are in metres and angles in radians; 5*deg is an angle. Positive angles: nose up, trailing edge down.
 
 local choice = args{
   span = number{ 34, min = 26, max = 42, unit = m }, sweep = number{ 25, min = 0, max = 35, unit = deg },
@@ -14,7 +14,7 @@ local design = {
   engine = { 12.2, 5.75, -2.25 },
 }
 
--- Circles that grow behind the nose and rise towards the tail; two alike and a third keep the cabin straight.
+-- The frames are circles that grow behind the nose and rise towards the tail. Three equal frames keep the cabin straight.
 local function frames_of(p)
   local d, l = p.diameter, p.length
   return {
@@ -39,7 +39,7 @@ local function airliner(p)
     { y = p.kink*p.span/2,   chord = p.kink_chord, airfoil = "data/rae2822.dat", twist = 1*deg, x = p.kink*p.span/2*math.tan(p.sweep + 3*deg), dihedral = p.dihedral },
     { y = p.span/2,          chord = p.tip_chord,  sweep = p.sweep, dihedral = p.dihedral, twist = -2*deg } } }
   main_wing:deflect{ "aileron", from = { 0.72, 0.75 }, to = { 0.93, 0.73 }, angle = p.aileron, other_side = "opposite" }
-  main_wing:control{ "flap", from = { 0.40, 0.76 }, to = { 0.68, 0.75 } }       -- only a patch of that name
+  main_wing:control{ "flap", from = { 0.40, 0.76 }, to = { 0.68, 0.75 } }       -- not deflected; names a patch
 
   local engine = nacelle{ name = "engine", symmetric = true, position = p.engine, length = 4.0, diameter = 2.1, intake = "fan_face", exhaust = "nozzle" }
   local fin = wing{ name = "fin", position = { 30.2, 0, 1.2 }, sections = {

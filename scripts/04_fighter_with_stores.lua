@@ -1,4 +1,4 @@
--- A fighter: cranked delta, twin fins, fuselage of superellipses, and stores that hang on pylons under the wing.
+-- A fighter: cranked delta wing, twin fins, a fuselage of superellipses, and stores on pylons under the wing.
 --   ./run scripts/04_fighter_with_stores.lua
 
 local body = fuselage{ name = "body", along = "akima", nose_height = 1.6, tail = "flat", frames = {
@@ -22,7 +22,7 @@ local fin = wing{ name = "fin", symmetric = true, position = { 11.2, 0.75, 0.35 
   { y = 0, chord = 3.4, airfoil = "naca0005" },
   { span = 2.9, chord = 1.2, sweep = 42*deg, dihedral = 72*deg } } }    -- canted outwards
 
--- A store is a body of revolution: nose ogive, tube, boat tail. One inboard and one outboard on each side, each on its pylon.
+-- A store is a body of revolution: nose ogive, tube, boat tail. Each side has one store inboard and one outboard, each on a pylon.
 local function store(name, y, x, z)
   return body_of_revolution{ name = name, symmetric = true, position = { x, y, z }, profile = {
     { 0, 0 }, { 0.10, 0.065 }, { 0.30, 0.11 }, { 0.60, 0.145 }, { 0.95, 0.16 }, { 1.30, 0.16 }, { 2.20, 0.16 }, { 2.60, 0.145 }, { 3.00, 0.10 } } }

@@ -1,7 +1,7 @@
--- A glider: a wing that is cubic along its span with winglets, an airfoil file, pod and boom, T-tail.
+-- A glider: a wing with cubic interpolation along the span and winglets, an airfoil file, pod and boom, T-tail.
 --   ./run scripts/05_glider.lua
 
-local laminar = airfoil{ "data/nlf416.dat", trailing_edge = 0.002 }     -- of the chord
+local laminar = airfoil{ "data/nlf416.dat", trailing_edge = 0.002 }     -- thickness, relative to the chord
 print(laminar)
 
 local pod = fuselage{ name = "pod", nose_height = 1.3, tail_height = 1.0, frames = {
@@ -13,7 +13,7 @@ local pod = fuselage{ name = "pod", nose_height = 1.3, tail_height = 1.0, frames
   { x = 3.9,  width = 0.24, height = 0.28, z = 0.12 } } }
 local tail_boom = boom{ name = "boom", from = { 3.2, 0, 0.12 }, to = { 7.1, 0, 0.22 }, diameter = 0.19 }
 
--- Between the root and the winglet one smooth surface; the leading edge follows from sweep 0 of the quarter chord.
+-- The wing is one smooth surface from the root to the winglet. The sweep of 0 at the quarter chord defines the leading edge.
 local main_wing = wing{ name = "wing", symmetric = true, position = { 1.85, 0, 0.30 }, spanwise = "cubic", sections = {
   { y = 0,   chord = 0.95, airfoil = laminar, twist = 2*deg },
   { y = 3.0, chord = 0.88, dihedral = 2*deg, twist = 1.5*deg },

@@ -1,4 +1,4 @@
--- A wind-tunnel model on its sting in a test section: elastic bending of the wing, then attitude.
+-- A wind-tunnel model on its sting in a test section: the wing is bent elastically, then the model is turned to its attitude.
 --   ./run scripts/06_wind_tunnel_model.lua
 
 local half_span = 0.8
@@ -13,7 +13,7 @@ local support = sting{ name = "sting", from = { 1.45, 0, 0 }, to = { 2.6, 0, 0 }
 
 local clean = aircraft{ name = "model", body, main_wing }
 
--- Bending under load: measured as the rise of the tip; the rest follows a cantilever. The body stays where it is.
+-- The wing bends like a cantilever, with the measured rise of the tip. The body does not move.
 local tip_rise = 0.03
 local bent = clean:deform{ function(x, y, z)
   local s = math.max(math.abs(y) - 0.09, 0) / (half_span - 0.09)
@@ -21,7 +21,7 @@ local bent = clean:deform{ function(x, y, z)
 end, tolerance = 1e-6 }
 print(bent)
 
--- The model with its sting, turned about the balance: 4 degrees of incidence, 2 of sideslip.
+-- Model and sting are turned about the balance: 4 degrees of incidence, 2 degrees of sideslip.
 local mounted = union{ bent, support }:rotate{ about = { 0.8, 0, 0 }, pitch = 4*deg, yaw = 2*deg }
 assert(mounted.is_closed and #mounted.solids == 1)
 local tunnel = test_section{ length = 5, width = 2.4, height = 1.8, upstream = 2, contraction_length = 1.5, contraction_ratio = 5 }

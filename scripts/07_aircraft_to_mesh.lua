@@ -1,4 +1,4 @@
--- From numbers to a mesh for a solver: components, one closed surface, triangles, layers and tetrahedra, verdict, files. read_cad or read_smx can stand for the numbers.
+-- From numbers to a mesh for a solver: components, one closed surface, triangles, layers and tetrahedra, verdict, files. read_cad or read_smx can replace the components.
 --   ./run scripts/07_aircraft_to_mesh.lua
 
 local body = fuselage{ name = "body", frames = {
@@ -16,8 +16,8 @@ local fin = wing{ name = "fin", position = { 6.9, 0, 0.3 }, trailing_edge = 0.00
 local model = aircraft{ body, main_wing, tailplane, fin }
 print(model)
 
--- Without numbers edges are 8 % of the bodies' circumference and 15 % of the wings' chord, shorter where the surface is curved. Patches are the components.
--- A min_edge above the radius of a leading edge would make an edge of it, which layers take for one: noses of the tails' tips have radii of 7 mm.
+-- Without numbers, edges are 8 % of the circumference of bodies and 15 % of the chord of wings, and shorter where the surface is curved. Each component is a patch.
+-- A min_edge above the radius of a leading edge turns the leading edge into a sharp edge, also for the layers. The tips of the tails have leading edge radii of 7 mm.
 local wall = surface_mesh{ model,
   curvature_angle = 18*deg,
   min_edge = 15*mm,

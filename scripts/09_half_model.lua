@@ -1,4 +1,4 @@
--- Half models: one side of an aircraft, open at its plane of symmetry, whose rim lies in the plane to the last bit. A solver then needs half the cells.
+-- Half models: one side of an aircraft, open at its plane of symmetry. The open boundary lies exactly in the plane. A solver needs half the cells.
 --   ./run scripts/09_half_model.lua
 
 local body = fuselage{ name = "body", frames = {
@@ -12,9 +12,9 @@ local fin = wing{ name = "fin", position = { 6.9, 0, 0.3 }, trailing_edge = 0.00
   { z = 1.5, chord = 0.7, sweep = 25*deg } } }
 local whole = aircraft{ body, main_wing, fin }
 
-local right = half(whole)                                            -- the side y > 0; half{ whole, keep = "-" } keeps the other
+local right = half(whole)                                            -- the side y > 0; half{ whole, keep = "-" } keeps the other side
 print(right, right.report)
-assert(not right.is_closed and right.min[2] > -1e-6)                -- boxes of exact geometry are a little loose; its rim is exact
+assert(not right.is_closed and right.min[2] > -1e-6)                -- bounding boxes of exact geometry have a small margin; the open boundary is exact
 
 local sizes = { curvature_angle = 20*deg, min_edge = 12*mm, patches = { ["wing*"] = { max_edge = 0.2 }, fin = { max_edge = 0.2, min_edge = 8*mm } } }
 local function mesh_of(model)
@@ -25,11 +25,11 @@ local wall, full = mesh_of(right), mesh_of(whole)
 print(string.format("half %d triangles, whole %d: %.1f %%", wall.triangles, full.triangles, 100 * wall.triangles / full.triangles))
 assert(wall.crossings == 0)
 
--- Or the triangles are cut: a half with exactly the whole's triangles but for those across the plane.
+-- A triangulated surface can be halved, too: the half has the triangles of the whole, except those across the plane.
 local cut = half(full)
 assert(math.abs(cut.triangles / full.triangles - 0.5) < 0.015)
 
--- Half a farfield and the plane "symmetry" are added; the layer ends in the plane.
+-- volume_mesh adds half a farfield and the plane "symmetry". The layer ends in the plane.
 local mesh = volume_mesh{ wall, first_height = 2e-5, farfield = sphere{ radius = 150 } }
 mesh:check()
 mesh:write("half_model.su2", "half_model.vtu")

@@ -1,8 +1,8 @@
--- A polar of a wind-tunnel model: attitude and bending as a series of cases, each in a process and a folder of its own. Start it again after an interruption: what is done
--- stays as it is.
+-- A polar of a wind-tunnel model: attitude and bending are the parameters of a series. Each case runs in a separate process and folder.
+-- After an interruption run the script again: complete cases are kept.
 --   ./run scripts/10_wind_tunnel_series.lua        (or on a cluster: run = slurm{ partition = "cfd", tasks = 64 })
 
--- Model and sting as files of a CAD system would be; here our own verbs write them.
+-- Model and sting stand for files of a CAD system. Here the script writes them.
 local half_span = 0.8
 local body = fuselage{ name = "body", along = "akima", tail = "flat", frames = {
   { x = 0.05, diameter = 0.07 }, { x = 0.15, diameter = 0.125 }, { x = 0.30, diameter = 0.16 }, { x = 0.36, diameter = 0.16 }, { x = 0.9, diameter = 0.16 },
@@ -15,7 +15,7 @@ aircraft{ body, main_wing }:write("series_model.step")
 sting{ name = "sting", from = { 1.45, 0, 0 }, to = { 2.6, 0, 0 }, diameter = 0.07, cone_start = 0.5, end_diameter = 0.13 }:model():write("series_sting.step")
 
 local tunnel = test_section{ length = 6, width = 2.4, height = 1.8, upstream = 2, through = "sting", inflow = "inlet", outflow = "outlet",
-                             max_edge = 0.4, walls = "slip" }            -- or layers: walls = { first_height = 20e-6 }
+                             max_edge = 0.4, walls = "slip" }            -- or with layers: walls = { first_height = 20e-6 }
 local model  = read_cad "series_model.step"
 local sting  = read_cad "series_sting.step"
 
@@ -30,6 +30,6 @@ local polar = series{ "polar",
     return volume_mesh{ wall, first_height = 30e-6 }:write(p.name .. ".cgns")
   end }
 
--- The table of results is there for the script, too; NAME/series.csv and series.json hold the same.
+-- The script can read the table of results as well. The files NAME/series.csv and series.json hold the same table.
 for _, case in ipairs(polar.cases) do print(case.name, case.verdict, case.cells, case.worst) end
 assert(polar.failed == 0)

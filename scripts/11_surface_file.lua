@@ -1,12 +1,12 @@
--- A surface of somebody else's to a mesh: triangles in, new triangles by curvature, layers and tetrahedra.
+-- From a surface file to a mesh: triangles are read and re-meshed by curvature, then layers and tetrahedra are made.
 --   ./run scripts/11_surface_file.lua
 
--- The wall. File names are looked for in the current folder, then beside this script. This file's lengths are feet; inside, everything is metres.
--- Edges that bend by more than 60 degrees part the surface into patches, which become the solver's boundary markers.
+-- The wall. Files are searched in the current folder, then in the folder of this script. The lengths of this file are feet; sterna uses metres.
+-- Edges that bend by more than 60 degrees divide the surface into patches, which become the boundary markers of the solver.
 local given = read_surface{ "data/cessna.msh.gz", unit = ft, split_angle = 60*deg }
 print(given)
 
--- It has needles (corners below 5 degrees), which no layer survives well; docs/remesh.md. inspect{ given } would say so in seconds.
+-- The surface has sliver triangles (angles below 5 degrees), which cause bad layers (docs/remesh.md). inspect{ given } reports them within seconds.
 local wall = remesh{ given }
 
 local mesh = volume_mesh{ wall,

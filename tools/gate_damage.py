@@ -1,16 +1,16 @@
-"""Volume meshes that are damaged on purpose in one measure at a time, for `tools/verify_gates`.
+"""Damages volume meshes deliberately in one measure at a time, for `tools/verify_gates`.
 
-A mesh is read from a UGRID file (.lb8.ugrid), some of its nodes are moved, and the mesh is written again. No cell loses its volume: a move that leaves a cell
-around the node without a positive Jacobian at each corner is taken back, and the damage goes to another location. Nodes of boundaries stay where they are."""
+The module reads a mesh from a UGRID file (.lb8.ugrid), moves some of its nodes, and writes the mesh again. All cells stay valid: a move after which a cell around
+the node has a corner without a positive Jacobian is reverted, and another location is damaged. Nodes on boundaries are not moved."""
 import array
 import math
 import pathlib
 from typing import Callable
 
 PRISM_CORNERS = [(0, 1, 2, 3), (1, 2, 0, 4), (2, 0, 1, 5), (3, 5, 4, 0), (4, 3, 5, 1), (5, 4, 3, 2)]  # a corner and the ends of its three edges
-KEPT = 1e-7          # of a Jacobian: what the least one of a damaged cell keeps of the value before, unless the damage is meant for that cell
-EDGE_SHARE = 0.3     # of the wall's edge: how far a line may be moved sideways, so that it does not meet its neighbours
-RIM = 0.08           # of the span: lines that are nearer than that to the plane of symmetry are left alone
+KEPT = 1e-7          # share of the smallest Jacobian of a cell that must remain after a damage, except for the cell that is damaged
+EDGE_SHARE = 0.3     # relative to the edges of the wall: largest sideways displacement of a growth line, which keeps neighbouring lines apart
+RIM = 0.08           # relative to the span: growth lines closer to the plane of symmetry are not damaged
 
 Vector = tuple[float, float, float]
 
@@ -41,7 +41,7 @@ def unit(a: Vector) -> Vector:
 
 
 class Grid:
-    """A mesh of prisms and tetrahedra with its growth lines (nodes from the wall to the envelope), found by walking through the prisms."""
+    """A mesh of prisms and tetrahedra with its growth lines (nodes from the wall to the envelope), which are found by following the prisms."""
 
     def __init__(self, path: pathlib.Path):
         data = path.read_bytes()
@@ -111,13 +111,13 @@ class Grid:
         return [dot(cross(minus(p[b], p[a]), minus(p[c], p[a])), minus(p[d], p[a])) for a, b, c, d in PRISM_CORNERS]
 
     def size_of(self, cell: tuple[int, ...]) -> float:
-        """The least Jacobian of a cell, positive for a valid one."""
+        """Returns the smallest Jacobian of a cell, positive for a valid cell."""
         if len(cell) == 4:
             return self.sign[True] * self.tet_volume(cell)
         return min(self.sign[False] * value for value in self.prism_jacobians(cell))
 
     def move(self, moves: dict[int, Vector], kept: float = KEPT) -> bool:
-        """Moves nodes, all or none of them: none where a cell would keep less than the share `kept` of its least Jacobian."""
+        """Moves all given nodes, or no node if a cell would keep less than the share `kept` of its smallest Jacobian."""
         touched = {cell for node in moves for cell in self.cells[node]}
         before = {cell: self.size_of(cell) for cell in touched}
         old = {node: self.points[node] for node in moves}
@@ -136,7 +136,7 @@ class Grid:
             out.write(self.rest)
 
     def spread(self, items: list, count: int) -> list:
-        """All items in an order whose first `count` are spread evenly; the others follow as a reserve."""
+        """Returns all items in an order whose first `count` items are spread evenly; the others follow as a reserve."""
         count = max(1, min(count, len(items)))
         chosen = [int((i + 0.5) * len(items) / count) for i in range(count)]
         taken = set(chosen)
@@ -146,13 +146,13 @@ class Grid:
         return min((length(minus(self.points[n], self.points[start])) for n in self.neighbours.get(start, ())), default=0.0)
 
     def patch_around(self, start: int) -> list[int] | None:
-        """A start of a line and those around it, or None where one of them has no whole line."""
+        """Returns the start of a growth line and the starts around it, or None if one of them has no complete line."""
         ring = [start, *sorted(self.neighbours[start])]
         return ring if all(n in self.lines for n in ring) else None
 
 
 def lean(grid: Grid, count: int, degrees: float, deepest: int = 12) -> int:
-    """Lines of a vertex and its neighbours lean by an angle in their first cells; above, the shift stays and fades towards the envelope."""
+    """Tilts the growth lines of a vertex and its neighbours by an angle in their first cells. Further out the displacement remains, and fades towards the envelope."""
     done, used = 0, set()
     for start in grid.spread(list(grid.lines), count):
         if done == count:
@@ -161,7 +161,7 @@ def lean(grid: Grid, count: int, degrees: float, deepest: int = 12) -> int:
         if not ring or used & set(ring):
             continue
         first = max(length(minus(grid.points[grid.lines[n][1]], grid.points[n])) for n in ring)
-        if math.tan(math.radians(degrees)) * first > EDGE_SHARE * min(grid.wall_edge(n) for n in ring):  # the first cells must be able to lean so far
+        if math.tan(math.radians(degrees)) * first > EDGE_SHARE * min(grid.wall_edge(n) for n in ring):  # the first cells must have room for the tilt
             continue
         normal = unit(grid.normals[start])
         along = cross(normal, (1.0, 0.0, 0.0) if abs(normal[0]) < 0.7 else (0.0, 1.0, 0.0))
@@ -184,7 +184,7 @@ def lean(grid: Grid, count: int, degrees: float, deepest: int = 12) -> int:
 
 
 def layer_jump(grid: Grid, count: int, ratio: float, at: float = 0.5) -> int:
-    """A cell of each line gets so thin that the next cell above is `ratio` times as high (at: which share of the layers is below)."""
+    """Makes one cell of each growth line so thin that the next cell is `ratio` times as high (at: share of the layers below the cell)."""
     done = 0
     for start in grid.spread(list(grid.lines), count):
         if done == count:
@@ -197,7 +197,7 @@ def layer_jump(grid: Grid, count: int, ratio: float, at: float = 0.5) -> int:
 
 
 def compress(grid: Grid, count: int, factor: float) -> int:
-    """Whole lines get lower by a factor, with the tetrahedra on them."""
+    """Reduces the height of complete growth lines by a factor; the tetrahedra above them follow."""
     done = 0
     for start in grid.spread(list(grid.lines), count):
         if done == count:
@@ -209,7 +209,7 @@ def compress(grid: Grid, count: int, factor: float) -> int:
 
 
 def last_layer(grid: Grid, count: int, factor: float) -> int:
-    """The last cell of lines gets lower (or higher) by a factor: the envelope is moved, tetrahedra on it become higher (or lower)."""
+    """Multiplies the height of the last cell of growth lines by a factor: the envelope moves, and the tetrahedra above it change by the opposite amount."""
     done = 0
     for start in grid.spread(list(grid.lines), count):
         if done == count:
@@ -221,7 +221,7 @@ def last_layer(grid: Grid, count: int, factor: float) -> int:
 
 
 def inner_tets(grid: Grid) -> list[tuple[int, ...]]:
-    """Tetrahedra with a node that is neither on a boundary nor on a prism, those near the walls first: the nearest tenth, in the order of the file."""
+    """Returns the tetrahedra with a node that is neither on a boundary nor on a prism, sorted by the distance from the walls."""
     in_prisms = {n for cell in grid.prisms for n in cell}
     free = [cell for cell in grid.tets if any(n not in grid.fixed and n not in in_prisms for n in cell)]
     walls = [grid.points[n] for n in list(grid.lines)[::20]] or [grid.points[n] for n in list(grid.fixed)[::20]]
@@ -235,8 +235,8 @@ def inner_tets(grid: Grid) -> list[tuple[int, ...]]:
 
 
 def move_free_nodes(grid: Grid, count: int, share: float, reach: float, target: Callable[[int, tuple[int, ...]], tuple[float, ...]]) -> int:
-    """Moves one free node of each of `count` tetrahedra, spread over those nearest to the walls (a share `reach` of all), to target(node, cell), if the cells
-    around the node stay positive and no node of these cells has been moved. Returns the number of moved nodes."""
+    """Moves one free node of each of `count` tetrahedra to target(node, cell). The tetrahedra are spread over those nearest to the walls (a share `reach` of all). A node is
+    moved only if the cells around it stay positive, and if no node of these cells has been moved. Returns the number of moved nodes."""
     done, used = 0, set()
     tets = inner_tets(grid)
     for cell in grid.spread(tets[:max(20 * count, int(reach * len(tets)))], count):
@@ -253,7 +253,7 @@ def move_free_nodes(grid: Grid, count: int, share: float, reach: float, target: 
 
 
 def flatten(grid: Grid, count: int, share: float, reach: float = 0.1) -> int:
-    """Tetrahedra lose all but a share of their height: a free node moves towards the opposite face."""
+    """Reduces the height of tetrahedra to a share: a free node moves towards the opposite face."""
     def target(node: int, cell: tuple[int, ...]) -> tuple[float, ...]:
         a, b, c = (grid.points[n] for n in cell if n != node)
         normal = unit(cross(minus(b, a), minus(c, a)))
@@ -263,7 +263,7 @@ def flatten(grid: Grid, count: int, share: float, reach: float = 0.1) -> int:
 
 
 def shorten(grid: Grid, count: int, share: float, reach: float = 0.1) -> int:
-    """An edge between a free node and a neighbour gets shorter by a share: the tetrahedra on the edge lose that much of their volume, those opposite gain."""
+    """Shortens an edge between a free node and a neighbour by a factor. The tetrahedra on the edge lose volume, and the opposite tetrahedra gain volume."""
     def target(node: int, cell: tuple[int, ...]) -> tuple[float, ...]:
         end = grid.points[next(n for n in cell if n != node)]
         return plus(end, minus(grid.points[node], end), share)
@@ -274,16 +274,16 @@ KINDS = {"lean": lean, "layer_jump": layer_jump, "compress": compress, "last_lay
 
 
 def count_of(grid: Grid, kind: str, amount: float) -> int:
-    """Number of lines or tetrahedra that an amount stands for: a share up to 1, a number above."""
+    """Returns the number of growth lines or tetrahedra: an amount up to 1 is a share, a larger amount is a number."""
     if amount > 1.0:
         return int(amount)
-    if kind == "lean":  # patches of a vertex and its neighbours, about seven lines
+    if kind == "lean":  # one location is a vertex with its neighbours, about seven growth lines
         return max(1, int(amount * len(grid.lines) / 7))
     return max(1, int(amount * (len(grid.tets) if kind in ("flatten", "shorten") else len(grid.lines))))
 
 
 def damage(source: pathlib.Path, target: pathlib.Path, kind: str, amount: float, **strength: float) -> tuple[int, int]:
-    """Writes the damaged mesh; returns how many locations were damaged and how many were meant to be."""
+    """Writes the damaged mesh; returns the number of damaged locations, and the target number."""
     grid = Grid(source)
     count = count_of(grid, kind, amount)
     done = KINDS[kind](grid, count, **strength)

@@ -1,5 +1,5 @@
-"""The meshes of `tools/verify_gates`: sound meshes of many bodies at two sizes, and meshes of a wing and an aircraft that are damaged on purpose. The bodies are those whose
-wall can be remeshed to about a thousand triangles, so that a run takes about a minute."""
+"""Defines the meshes of `tools/verify_gates`: sound meshes of many bodies at three sizes, and damaged meshes of a wing and an aircraft. The bodies have walls that can be
+re-meshed to about a thousand triangles, so that a run takes about a minute."""
 import pathlib
 
 import verify_aircraft
@@ -21,11 +21,11 @@ print("counts", wall.triangles, wall.length)
 """
 LAYERS = "first_height = {height}*wall.length, "
 Y_PLUS = "first_height = y_plus{ 1, mach = 0.2, altitude = 0, length = wall.length }, "
-SMALL, LARGE = 500, 800  # triangles of the wall
+SMALL, LARGE, REFINED = 500, 800, 2000  # number of triangles of the wall
 
 
 class Body:
-    """A wall: `make` writes its script for a number of triangles; `file` in the folder of the data, or none."""
+    """A wall: `make` writes its script for a number of triangles; `file` is in the data folder, or empty."""
 
     def __init__(self, name: str, make, file: str = ""):
         self.name, self.make, self.file = name, make, file
@@ -85,9 +85,10 @@ BODIES = [
     of_model("widebody", "read_smx", "smx/widebody.smx"),
 ]
 LARGE_BODIES = ["first_mesh", "geom2", "wing_body", "bwb", "airplane", "cessna", "swept_wing", "caturbs", "m6_sharp", "lab_plane", "duct", "fandisk", "m6_cpacs"]
+REFINED_BODIES = ["wing_body", "geom2", "airplane", "caturbs", "lab_plane", "light", "bjet", "crm", "swept_wing", "simple_wing", "dlr_f6", "first_mesh", "duct", "m6_cpacs"]
 FINE_BODIES = ["wing_body", "first_mesh", "m6_cpacs"]  # with y+ 1 at the small size
 
-# A wing whose trailing edge has a width: its mesh has no gate beyond a hard limit for cell-centred solvers. The small wing is the one of --short.
+# A wing with a blunt trailing edge: no gate of its mesh exceeds a hard limit for cell-centred solvers. --short uses the small wing.
 WING = """local shape = wing{{ name = "wing", symmetric = true, trailing_edge = {width}, sections = {{ {{ y = 0, chord = 1, airfoil = "{airfoil}" }}, {{ y = {span}, chord = 0.7, sweep = 20*deg }} }} }}
 local wall = surface_mesh{{ half(aircraft{{ shape }}), max_edge = {edge}, curvature_angle = 24*deg, min_edge = {least} }}
 """
@@ -98,7 +99,7 @@ def wing(width: float = 0.06, airfoil: str = "naca0021", span: float = 1.0, edge
 
 
 class Mesh:
-    """One mesh of the experiment. `script` makes it from the folder of the data; or `of` names the mesh whose nodes `damage` moves."""
+    """A mesh of the experiment. Either `script` makes the mesh from the data folder, or `of` names the mesh whose nodes `damage` moves."""
 
     def __init__(self, name: str, script=None, of: str = "", damage: tuple | None = None, file: str = "", what: str = ""):
         self.name, self.script, self.of, self.damage, self.file, self.what = name, script, of, damage, file, what
@@ -111,7 +112,7 @@ def sound(body: Body, triangles: int, first: str, suffix: str) -> Mesh:
 
 
 def made(name: str, wall: str, options: str, what: str, of: str = "wing") -> Mesh:
-    """The wing's mesh by other options of volume_mesh."""
+    """Returns a mesh of the wing with other options of volume_mesh."""
     return Mesh(name, lambda _: wall + VOLUME.format(first="", more=", " + options), of=of, what=what)
 
 
@@ -122,7 +123,7 @@ def damaged(of: str, kind: str, amount: float, **strength: float) -> Mesh:
     return Mesh(name, of=of, damage=(kind, amount, strength), what=f"{kind}: {words}; " + (f"{amount:.0f} locations" if amount > 1 else f"{100 * amount:g} %"))
 
 
-THIN = "first_height = 2e-5, "  # cells so thin that first cells can lean by 89.5 degrees without meeting their neighbours
+THIN = "first_height = 2e-5, "  # the first cells are so thin that they can be tilted by 89.5 degrees without contact with their neighbours
 BASES = [Mesh("thin_wing", lambda _: wing() + VOLUME.format(first=THIN, more=""), what="the same with thinner first cells"),
          Mesh("wing", lambda _: wing() + VOLUME.format(first="first_height = 5e-4, ", more=""), what="the wing that is damaged"),
          sound(BODIES[0], SMALL, LAYERS.format(height=1e-4), "_small")]
@@ -140,7 +141,7 @@ DAMAGES = [
     [("last_layer", 1.0, {"factor": f}) for f in (0.3, 0.1, 0.02)],
     [("last_layer", 0.01, {"factor": 0.1})],
 ]
-MORE_DAMAGES = [  # between those above in strength
+MORE_DAMAGES = [  # of a strength between those above
     [("layer_jump", 1.0, {"ratio": r}) for r in (50, 3)],
     [("layer_jump", 1.0, {"ratio": 20, "at": 0.0})],
     [("compress", 0.1, {"factor": 0.02})],
@@ -168,7 +169,7 @@ BY_OPTIONS = [
 
 
 def all_meshes() -> list[Mesh]:
-    """In the order of the runs: the two that are damaged, then sound and damaged ones in turns; finer and larger ones last."""
+    """Returns the meshes in the order of the runs: first the meshes that are damaged later, then sound and damaged meshes in turns, finer and larger meshes last."""
     def on_wing(groups: list) -> list[Mesh]:
         return [damaged("wing", kind, amount, **strength) for group in groups for kind, amount, strength in group]
     bodies = {body.name: body for body in BODIES}
@@ -178,7 +179,8 @@ def all_meshes() -> list[Mesh]:
         turns += first[i:i + 1] + sound_ones[i:i + 1]
     large = [sound(bodies[name], LARGE, LAYERS.format(height=1e-4), "_large") for name in LARGE_BODIES]
     fine = [sound(bodies[name], SMALL, Y_PLUS, "_y1") for name in FINE_BODIES]
-    return BASES + turns + large[:7] + fine + on_wing(MORE_DAMAGES) + [damaged("first_mesh_small", kind, amount, **strength) for kind, amount, strength in ON_BODY] + large[7:]
+    refined = [sound(bodies[name], REFINED, LAYERS.format(height=1e-4), "_refined") for name in REFINED_BODIES]
+    return BASES + turns + large[:7] + fine + refined + on_wing(MORE_DAMAGES) + [damaged("first_mesh_small", kind, amount, **strength) for kind, amount, strength in ON_BODY] + large[7:]
 
 
 SHORT_WING = wing(0.05, "naca0021", 0.8, 0.22, 0.04)

@@ -1,22 +1,22 @@
-"""The tables of `tools/verify_gates`, from its results."""
+"""Prints the tables of `tools/verify_gates` from its results."""
 import math
 import re
 
 OUTCOMES = ("converges", "stalls", "diverges")
 VERDICTS = ("pass", "warn", "FAIL", "INVALID")
-NEAR = 0.01  # of the length: how near a location is to that where a run begins to diverge
-MOVED = 2.0  # percent of drag, beyond which a damaged mesh has visibly spoilt the solution
-# Gates that cell-centred solvers use, in the order of the table; forms of the same cells that only node-centred solvers use are left out.
+NEAR = 0.01  # relative to the length: largest distance of a location from the start of the divergence
+MOVED = 2.0  # percent of drag: a larger change by a damaged mesh means a spoilt solution
+# Gates of cell-centred solvers, in the order of the table. Other measures of the same cells, for node-centred solvers only, are omitted.
 MEASURES = ["scaled_jacobian", "stack_growth", "interface_height", "interface_volume", "stack_angle", "first_height", "coverage", "collapsed", "layer_step", "min_dihedral", "max_dihedral", "tet_growth",
             "non_orthogonality", "skewness", "face_weight", "volume_ratio", "face_flatness", "cell_aspect_ratio", "face_tets", "cell_determinant"]
 
 
-# Limits that are tried instead of those of the program that made the results (--fail): measure, limit, share that must be beyond it; None: the program's own.
+# Limits of --fail instead of the limits of the program that made the results: measure, limit, share of items that must exceed it. None: limits of the program.
 tried: dict[str, tuple[float, float]] | None = None
 
 
 def try_limits(rules: list[str]) -> None:
-    """From "measure=limit" or "measure=limit:share"; a share counts the items that are beyond the program's hard limit."""
+    """Reads "measure=limit" or "measure=limit:share". A share counts the items beyond the hard limit of the program."""
     global tried
     tried = {}
     for rule in rules:
@@ -32,7 +32,7 @@ def is_beyond(measure: dict, limit: float, share: float) -> bool:
 
 
 def verdict(result: dict) -> str:
-    """Of the cell-centred gates: by the program that made the result, or by the limits that are tried."""
+    """Returns the verdict of the cell-centred gates, by the program that made the result, or by the limits of --fail."""
     state = result["verdicts"].get("cell-centred", "not checked")
     if result["valid"] != "VALID":
         return "INVALID"
@@ -48,7 +48,7 @@ def failed_gates(result: dict) -> list[str]:
 
 
 def moved(result: dict, base: dict | None) -> tuple[float, float] | None:
-    """Percent by which drag differs from that of the undamaged mesh, and lift over the larger of drag and lift."""
+    """Returns the change of drag relative to the undamaged mesh, and the change of lift relative to the larger of drag and lift, in percent."""
     if not base or base is result or "CD" not in result or "CD" not in base:
         return None
     scale = max(abs(base["CD"]), abs(base["CL"]))
@@ -56,13 +56,13 @@ def moved(result: dict, base: dict | None) -> tuple[float, float] | None:
 
 
 def is_spoilt(result: dict, bases: dict[str, dict]) -> bool:
-    """Whether the run diverges, stalls, or moves drag by more than MOVED percent against the undamaged mesh."""
+    """Returns whether the run diverges, stalls, or changes drag by more than MOVED percent relative to the undamaged mesh."""
     change = moved(result, bases.get(result["of"]))
     return result["outcome"] != "converges" or (change is not None and abs(change[0]) > MOVED)
 
 
 def line(result: dict) -> str:
-    """A run in words, while the tool runs."""
+    """Returns one line about a run, for printing during the experiment."""
     forces = f", CD {result['CD']:.5f}, CL {result['CL']:.4f}, moved by {100 * result['spread']:.2f} %" if "CD" in result else ""
     meant = f" ({result['damaged']} of {result['meant']} locations)" if "meant" in result else ""
     return f"{result['name']}{meant}: {result['cells']} cells, {verdict(result)}, {result['outcome']} at {result.get('iterations', 0):.0f}{forces}, {result.get('seconds', 0):.0f} s"
@@ -88,7 +88,7 @@ def value_range(values: list[float]) -> str:
 
 
 def gate_table(results: list[dict], bases: dict[str, dict]) -> None:
-    """Per gate: the worst values of runs by outcome, and what became of the runs beyond the hard limit."""
+    """Prints for each gate the worst values of runs by outcome, and the outcomes of runs beyond the hard limit."""
     print("| gate | measure | hard limit | worst value of runs that converge with drag within 2 % | converge, drag moves by more | stall | diverge | beyond the limit: spoilt / all | of these alone beyond this limit |")
     print("|---|---|---|---|---|---|---|---|---|")
     for name in MEASURES:
@@ -122,7 +122,7 @@ def verdict_table(results: list[dict], bases: dict[str, dict]) -> None:
 
 
 def extremes(result: dict) -> list[str]:
-    """Measures one of whose worst locations is where the run began to diverge (within NEAR of the length)."""
+    """Returns the measures that have one of their worst locations within NEAR of the location where the run began to diverge."""
     found = re.search(r"first at \(([-+.\de]+), ([-+.\de]+), ([-+.\de]+)\)", result["says"])
     if not found:
         return []

@@ -1,4 +1,4 @@
-# What the libraries of sterna are linked with; installed beside their targets (docs/library.md).
+# Dependencies of the libraries of sterna; installed beside their targets (docs/library.md).
 include(CMakeFindDependencyMacro)
 find_dependency(PkgConfig)
 find_dependency(Threads)

@@ -1,4 +1,4 @@
-"""What sterna tells of the changes that it made to a surface, in short; used by tools/measure_dirty and tools/measure_auto."""
+"""Shortens the report of sterna on the changes of a surface; used by tools/measure_dirty and tools/measure_auto."""
 import re
 
 NUMBER = r"([-+.\deE]+)"
@@ -8,7 +8,7 @@ SHORT = [("dropped", "dropped"), ("welded", "welded"), ("seams zipped", "seams")
 
 
 def short(change):
-    """What one change did, and its largest distances (kept, all) in metres."""
+    """Returns a change in short words, and its largest distances (of retained facets, of all) in metres."""
     kind, _, rest = change.partition(": ")
     if kind == "wrapped":
         found = re.search(rf"wrap to input at most {NUMBER} m outside closed openings, {NUMBER} m in closed openings; input to wrap at most {NUMBER} m", rest)
@@ -30,6 +30,6 @@ def short(change):
 
 
 def remeshed(changes):
-    """Number of triangles that remesh began with, and the largest distance of the new ones from them, in metres; nothing where it did not run."""
+    """Returns the number of triangles before remesh, and the largest distance of the new triangles from them in metres; None if remesh did not run."""
     found = re.search(rf"remeshed: ([\d ]+) -> [\d ]+ triangles, at most {NUMBER} m from the given ones", "\n".join(changes))
     return (found.group(1).replace(" ", ""), float(found.group(2))) if found else None

@@ -1,9 +1,9 @@
-"""Aircraft of every kind through mesh and solver, from the case as foam_case writes it: `tools/verify_flow aircraft`. Twelve at Mach 0.2 with Spalart-Allmaras,
-six of them at Mach 0.5 as well, four with k-omega SST. A run has converged when Allrun ends without divergence and lift and drag stay within 0.5 % of the drag's
-or the lift's size over the last 100 iterations, of 600 at most.
+"""Meshes and runs aircraft of every kind with cases of foam_case: `tools/verify_flow aircraft`. Twelve aircraft run at Mach 0.2 with Spalart-Allmaras, six of them
+also at Mach 0.5, and four with k-omega SST. A run has converged if Allrun ends without divergence, and if drag and lift change by at most 0.5 % of the larger of both
+over the last 100 of at most 600 iterations.
 
-Each aircraft and each run keeps its folder. A run whose result.json is there is not repeated, so the tool can be stopped and started again. Aircraft whose file
-is not in the folder of the data (--data, ../shared/data) are skipped with a message."""
+Each aircraft and each run has its own folder. A run with a result.json is not repeated, so the tool can be stopped and started again. Aircraft without a file in the
+data folder (--data, ../shared/data) are skipped with a message."""
 import json
 import os
 import pathlib
@@ -11,9 +11,9 @@ import re
 import shutil
 
 ROOT = pathlib.Path(__file__).resolve().parent.parent
-WINDOW, BAND = 100, 0.005  # iterations, share: a run has converged when its forces stay within it
+WINDOW, BAND = 100, 0.005  # iterations, share: a run has converged if its forces stay within this band
 REFERENCE = 0.1            # reference area over the square of the length
-CREVICE = 0.005            # width over the length, up to which crevices are filled where a trailing edge overhangs a body: real aircraft have a fillet there
+CREVICE = 0.005            # width over the length, up to which crevices are filled at trailing edges that overhang a body; real aircraft have a fillet there
 
 
 def script_before(name: str, end: str) -> str:
@@ -22,7 +22,7 @@ def script_before(name: str, end: str) -> str:
 
 
 def model_mesh(model: str, refinement: float) -> str:
-    """The whole wall is cut at the plane of symmetry and meshed again: the plane runs along edges of some models, which are hard to cut themselves."""
+    """Cuts the complete wall at the plane of symmetry and re-meshes it, because the plane contains edges of some models, which are hard to cut."""
     return f"local wall = remesh{{ half{{ surface_mesh{{ union{{ {model} }}, refinement = 0.5, curvature_angle = 24*deg }} }}, refinement = {refinement} }}\n"
 
 
@@ -35,14 +35,14 @@ def surface_mesh(file: pathlib.Path, options: str, refinement: float) -> str:
 
 
 class Aircraft:
-    """`make` writes the script of the wall from the folder of the data; `file` in that folder, or none; `has_crevices`: filled; `fast`: at Mach 0.5 as well; `sst`: with k-omega SST as well; `has_engines`: with patches nozzle and fan_face."""
+    """`make` writes the script of the wall from the data folder; `file` is in that folder, or empty; `has_crevices`: crevices are filled; `fast`: also at Mach 0.5; `sst`: also with k-omega SST; `has_engines`: has patches nozzle and fan_face."""
 
     def __init__(self, name: str, make, file: str = "", fast: bool = False, sst: bool = False, has_engines: bool = False,
                  has_crevices: bool = False):
         self.name, self.make, self.file, self.fast, self.sst, self.has_engines, self.has_crevices = name, make, file, fast, sst, has_engines, has_crevices
 
     def script(self, data: pathlib.Path) -> str:
-        """The script of the wall, with crevices filled."""
+        """Returns the script of the wall, with filled crevices."""
         return self.make(data) + (f"wall = fill_crevices{{ wall, width = {CREVICE}*wall.length }}\n" if self.has_crevices else "")
 
     def is_there(self, data: pathlib.Path) -> bool:
@@ -72,7 +72,7 @@ AIRCRAFT = [
     of_surface("cessna", "flowpanel_cessna_cessna.msh", "unit = ft, split_angle = 60*deg", 0.36, sst=True),
     of_surface("airplane", "flow360_airplane_airplaneGeometry.stl", "split_angle = 60*deg", 0.5, fast=True),
 ]
-SHORT = ["light", "bjet"]  # bjet diverged at iteration 15 while four vertices of its plane of symmetry had no layer
+SHORT = ["light", "bjet"]  # bjet diverged at iteration 15 when four vertices of its plane of symmetry had no layer
 SHORT_ITERATIONS = 24
 
 MESH = """
@@ -86,7 +86,7 @@ CASE = """local cells = read_mesh "../mesh.sterna"
 cells:foam_case{{ "case", flow{{ mach = {mach}, altitude = 0, length = {length} }}, alpha = 2*deg, reference_area = {area}, model = "{model}", iterations = {iterations}{boundaries} }}
 """
 SEA_LEVEL = 101325.0  # Pa
-JET, FACE = 1.1, 0.4  # of the flow's rise of pressure when it is stopped: total pressure in the nozzle, pressure at the fan: engines that hardly push
+JET, FACE = 1.1, 0.4  # relative to the stagnation pressure rise: total pressure in the nozzle, pressure at the fan face; engines with little thrust
 
 
 SEA_LEVEL_TEMPERATURE = 288.15  # K
@@ -94,7 +94,7 @@ SEA_LEVEL_TEMPERATURE = 288.15  # K
 
 def engine_boundaries(mach: float) -> str:
     rise = SEA_LEVEL * ((1.0 + 0.2 * mach ** 2) ** 3.5 - 1.0)
-    hot = f", total_temperature = {SEA_LEVEL_TEMPERATURE * (1.0 + 0.2 * mach ** 2):.2f}" if mach >= 0.3 else ""  # of a gas; the jet is as hot as the free stream
+    hot = f", total_temperature = {SEA_LEVEL_TEMPERATURE * (1.0 + 0.2 * mach ** 2):.2f}" if mach >= 0.3 else ""  # only for compressible flow; the jet has the temperature of the free stream
     return f", boundaries = {{ nozzle = {{ total_pressure = {SEA_LEVEL + JET * rise:.0f}{hot} }}, fan_face = {{ pressure = {SEA_LEVEL + FACE * rise:.0f} }} }}"
 
 
@@ -117,7 +117,7 @@ def runs_of(names: list[str], is_short: bool) -> list[Run]:
 
 
 def mesh_of(tools, arguments, aircraft: Aircraft, folder: pathlib.Path) -> dict:
-    """The aircraft's mesh, made once for all its runs."""
+    """Makes the mesh of the aircraft, once for all its runs."""
     done = folder / "mesh.result.json"
     if done.exists():
         return json.loads(done.read_text())
@@ -135,7 +135,7 @@ def mesh_of(tools, arguments, aircraft: Aircraft, folder: pathlib.Path) -> dict:
 
 
 def coefficient_rows(paths: list[pathlib.Path]) -> list[tuple[float, float, float]]:
-    """(iteration, CD, CL) of all parts of a run; where parts overlap, the later one."""
+    """Returns (iteration, CD, CL) of all parts of a run; where parts overlap, of the later part."""
     rows = {}
     for path in paths:
         names = []
@@ -149,7 +149,7 @@ def coefficient_rows(paths: list[pathlib.Path]) -> list[tuple[float, float, floa
 
 
 def spread(rows: list[tuple[float, float, float]]) -> float:
-    """Largest change of CD or CL over the last iterations, over the larger of their sizes at the end: lift may be near zero."""
+    """Returns the largest change of CD or CL over the last iterations. Lift is relative to the larger of both at the end, because it may be near zero."""
     last = [row for row in rows if row[0] > rows[-1][0] - WINDOW]
     drag, lift = [row[1] for row in last], [row[2] for row in last]
     scale = max(abs(drag[-1]), abs(lift[-1]))
@@ -188,7 +188,7 @@ def solve(tools, arguments, run: Run, mesh: dict, folder: pathlib.Path, iteratio
 def aircraft(tools, arguments) -> None:
     names = arguments.aircraft or (SHORT if arguments.short else [a.name for a in AIRCRAFT])
     place = arguments.folder / ("aircraft_short" if arguments.short else "aircraft")
-    if arguments.short:  # a test is never of another program's meshes
+    if arguments.short:  # a test must not use meshes of another program
         shutil.rmtree(place, ignore_errors=True)
     print("| aircraft | Mach, model | triangles, layers | cells | largest angle | iterations | CD | CL | change over the last 100 | seconds: mesh, solver |\n"
           "|---|---|---|---|---|---|---|---|---|---|")

@@ -8,6 +8,7 @@
 #include <numbers>
 #include <optional>
 #include <sstream>
+#include <stdexcept>
 
 #include "geom/base/error.h"
 #include "geom/base/number_with_unit.h"
@@ -64,6 +65,8 @@ std::string option_number_text(double value) {
   return {buffer, result.ptr};
 }
 
+std::string vector_text(const Vec3& v) { return "{" + option_number_text(v.x) + ", " + option_number_text(v.y) + ", " + option_number_text(v.z) + "}"; }
+
 std::string value_text(const OptionValue& value) {
   return std::visit(
       [](const auto& v) -> std::string {
@@ -71,7 +74,10 @@ std::string value_text(const OptionValue& value) {
         if constexpr (std::is_same_v<V, bool>) return v ? "true" : "false";
         else if constexpr (std::is_same_v<V, double>) return option_number_text(v);
         else if constexpr (std::is_same_v<V, std::string>) return "\"" + v + "\"";
-        else return std::to_string(v);
+        else if constexpr (std::is_same_v<V, std::int64_t>) return std::to_string(v);
+        else if constexpr (std::is_same_v<V, Vec3>) return vector_text(v);
+        else if constexpr (std::is_same_v<V, std::monostate>) return "no vector";
+        else return "a list of " + std::to_string(v.size());
       },
       value);
 }
@@ -82,16 +88,6 @@ std::string display_text(double value, Unit unit) {
   std::ostringstream text;
   text << value * 180.0 / std::numbers::pi << " deg";
   return text.str();
-}
-
-std::string_view kind_text(OptionKind kind) {
-  switch (kind) {
-    case OptionKind::boolean: return "true or false";
-    case OptionKind::integer: return "a whole number";
-    case OptionKind::number: return "a number";
-    case OptionKind::text: return "a string";
-  }
-  return "";
 }
 
 std::vector<std::string> split(std::string_view text) {
@@ -157,6 +153,19 @@ std::size_t edit_distance(std::string_view a, std::string_view b) {
 
 }  // namespace
 
+std::string_view kind_text(OptionKind kind) {
+  switch (kind) {
+    case OptionKind::boolean: return "true or false";
+    case OptionKind::integer: return "a whole number";
+    case OptionKind::number: return "a number";
+    case OptionKind::text: return "a string";
+    case OptionKind::vector: return "{x, y, z}";
+    case OptionKind::numbers: return "a list of numbers";
+    case OptionKind::vectors: return "a list of points {x, y, z}";
+  }
+  return "a value";
+}
+
 std::string_view to_string(Unit unit) {
   if (unit == k_kelvin) return "K";
   switch (unit) {
@@ -171,8 +180,17 @@ std::string_view to_string(Unit unit) {
 
 bool Option::is_automatic_value(const OptionValue& value) const {
   if (const double* number = std::get_if<double>(&value)) return is_automatic(*number);
+  if (const Vec3* vector = std::get_if<Vec3>(&value)) return is_automatic(vector->x);
   const std::int64_t* whole = std::get_if<std::int64_t>(&value);
-  return whole && !automatic.empty() && *whole == k_automatic_count;
+  return std::holds_alternative<std::monostate>(value) || (whole && !automatic.empty() && *whole == k_automatic_count);
+}
+
+bool Option::has_value() const {
+  const OptionValue value = get();
+  if (is_automatic_value(value)) return false;
+  if (const std::string* text = std::get_if<std::string>(&value)) return !text->empty();
+  const double* number = std::get_if<double>(&value);
+  return !number || (*number >= min && *number <= max);
 }
 
 std::string Option::default_text() const {
@@ -183,6 +201,7 @@ std::string Option::default_text() const {
 }
 
 std::string Option::range_text() const {
+  if (kind == OptionKind::vector) return std::string(kind_text(kind));
   if (!choices.empty() && kind == OptionKind::number) {
     Option plain = *this;
     plain.choices = {};
@@ -223,7 +242,9 @@ void set_option(const Option& option, const OptionValue& value) {
     if (const auto number = named_number(option.choices, *name)) return set_option(option, *number);
     reject(option, value_text(value), expected + " or one of " + names_of_numbers(option.choices));
   }
-  if (value.index() != option.default_value.index()) reject(option, value_text(value), expected);
+  const bool is_vector = option.kind == OptionKind::vector && std::holds_alternative<Vec3>(value);  // the default may be none
+  if (!is_vector && value.index() != option.default_value.index()) reject(option, value_text(value), expected);
+  if (is_vector && !is_finite(std::get<Vec3>(value))) reject(option, value_text(value), expected + " of finite numbers");
   if (const double* number = std::get_if<double>(&value)) check_range(option, *number);
   if (const std::int64_t* number = std::get_if<std::int64_t>(&value)) {
     check_range(option, static_cast<double>(*number));
@@ -266,6 +287,21 @@ double number_of_text(const Option& option, std::string_view text, BareAngle bar
 
 }  // namespace
 
+namespace {
+
+/// Calls number_of_text for each number of a list "1,2,3".
+std::vector<double> numbers_of_text(const Option& option, std::string_view text, BareAngle bare_angle) {
+  std::vector<double> numbers;
+  for (std::size_t begin = 0; begin <= text.size();) {
+    const std::size_t end = std::min(text.find(',', begin), text.size());
+    numbers.push_back(number_of_text(option, text.substr(begin, end - begin), bare_angle));
+    begin = end + 1;
+  }
+  return numbers;
+}
+
+}  // namespace
+
 void set_option_from_text(const Option& option, std::string_view text) { set_option_from_text(option, text, BareAngle::radians); }
 
 void set_option_from_text(const Option& option, std::string_view text, BareAngle bare_angle) {
@@ -285,20 +321,33 @@ void set_option_from_text(const Option& option, std::string_view text, BareAngle
       if (text == "automatic") return set_option(option, std::string(text));
       if (!option.choices.empty() && !text.empty() && std::isalpha(static_cast<unsigned char>(text.front()))) return set_option(option, std::string(text));
       return set_option(option, number_of_text(option, text, bare_angle));
+    case OptionKind::vector: {
+      const std::vector<double> numbers = numbers_of_text(option, text, bare_angle);
+      if (numbers.size() != 3) reject(option, "\"" + std::string(text) + "\"", "three numbers, such as 0,0,1");
+      return set_option(option, Vec3{numbers[0], numbers[1], numbers[2]});
+    }
+    case OptionKind::numbers: return set_option(option, numbers_of_text(option, text, bare_angle));
+    case OptionKind::vectors: reject(option, "\"" + std::string(text) + "\"", "a list in a script");
   }
 }
 
 void require_options(const OptionTable& table, std::string_view attempted) {
   std::string missing;
   for (const Option& option : table) {
-    if (!option.required) continue;
-    const OptionValue value = option.get();
-    const double* number = std::get_if<double>(&value);
-    const std::string* text = std::get_if<std::string>(&value);
-    if ((number && is_automatic(*number)) || (text && text->empty()))
-      missing += (missing.empty() ? "" : ", ") + std::string(option.name) + " (" + std::string(option.help) + ")";
+    if (option.required && !option.has_value()) missing += (missing.empty() ? "" : ", ") + std::string(option.name) + " (" + std::string(option.help) + ")";
   }
   if (!missing.empty()) throw Error({.code = ErrorCode::bad_argument, .attempted = std::string(attempted), .problem = "needs " + missing});
+}
+
+std::string_view detail::choice_at(std::string_view choices, int index) {
+  for (; index > 0 && !choices.empty(); --index) choices.remove_prefix(std::min(choices.find(' '), choices.size() - 1) + 1);
+  return choices.substr(0, choices.find(' '));
+}
+
+int detail::index_of_choice(std::string_view choices, std::string_view name) {
+  const std::vector<std::string> names = split(choices);
+  const auto found = std::ranges::find(names, name);
+  return found == names.end() ? -1 : static_cast<int>(found - names.begin());
 }
 
 std::string nearest_name(std::string_view name, std::span<const std::string> candidates) {
@@ -344,6 +393,86 @@ double parse_number_with_unit(std::string_view text, Unit expected, BareAngle ba
   return fail();
 }
 
+namespace {
+
+using OptionJson = nlohmann::ordered_json;
+
+OptionJson json_of(const Vec3& v) { return {v.x, v.y, v.z}; }
+
+OptionJson json_of(const OptionValue& value) {
+  return std::visit(
+      [](const auto& v) -> OptionJson {
+        using V = std::decay_t<decltype(v)>;
+        if constexpr (std::is_same_v<V, Vec3>) return json_of(v);
+        else if constexpr (std::is_same_v<V, std::monostate>) return nullptr;
+        else if constexpr (std::is_same_v<V, std::vector<Vec3>>) {
+          OptionJson list = OptionJson::array();
+          for (const Vec3& point : v) list.push_back(json_of(point));
+          return list;
+        } else return v;
+      },
+      value);
+}
+
+bool is_empty_list(const OptionValue& value) {
+  const auto* numbers = std::get_if<std::vector<double>>(&value);
+  const auto* vectors = std::get_if<std::vector<Vec3>>(&value);
+  return (numbers && numbers->empty()) || (vectors && vectors->empty());
+}
+
+Vec3 vector_of(const OptionJson& json) {
+  if (json.size() != 3) throw std::invalid_argument("a point has three coordinates");
+  return {json.at(0).get<double>(), json.at(1).get<double>(), json.at(2).get<double>()};
+}
+
+void set_from_json(const Option& option, const OptionJson& json) {
+  switch (option.kind) {
+    case OptionKind::vector: return set_option(option, vector_of(json));
+    case OptionKind::numbers: return set_option(option, json.get<std::vector<double>>());
+    case OptionKind::vectors: {
+      std::vector<Vec3> points;
+      for (const OptionJson& point : json) points.push_back(vector_of(point));
+      return set_option(option, std::move(points));
+    }
+    default: return set_option_from_text(option, json.is_string() ? json.get<std::string>() : json.dump());
+  }
+}
+
+}  // namespace
+
+std::string value_to_json(const OptionTable& table) {
+  OptionJson json = OptionJson::object();
+  for (const Option& option : table)
+    if (const OptionValue value = option.get(); option.has_value() && !is_empty_list(value)) json[std::string(option.name)] = json_of(value);
+  return json.dump();
+}
+
+void set_value_from_json(const OptionTable& table, std::string_view json, std::string_view attempted) {
+  try {
+    const OptionJson object = OptionJson::parse(json);
+    if (!object.is_object()) throw std::invalid_argument("expected an object, not " + std::string(json));
+    for (const auto& [name, value] : object.items()) set_from_json(find_option(table, name, attempted), value);
+  } catch (const std::invalid_argument& error) {
+    throw Error({.code = ErrorCode::bad_argument, .attempted = std::string(attempted), .problem = error.what()});
+  } catch (const OptionJson::exception& error) {
+    throw Error({.code = ErrorCode::bad_argument, .attempted = std::string(attempted), .problem = error.what()});
+  }
+}
+
+std::vector<std::string> elements_of_json(std::string_view json, std::string_view attempted) {
+  const OptionJson list = OptionJson::parse(json, nullptr, false);
+  if (!list.is_array()) throw Error({.code = ErrorCode::bad_argument, .attempted = std::string(attempted), .problem = "expected a JSON list"});
+  std::vector<std::string> elements;
+  for (const OptionJson& element : list) elements.push_back(element.dump());
+  return elements;
+}
+
+std::string list_to_json(std::span<const std::string> elements) {
+  std::string text = "[";
+  for (const std::string& element : elements) text += (text.size() > 1 ? "," : "") + element;
+  return text + "]";
+}
+
 std::string options_to_json(const OptionTable& table) {
   nlohmann::ordered_json json = nlohmann::ordered_json::object();
   for (const Option& option : table) {
@@ -353,7 +482,7 @@ std::string options_to_json(const OptionTable& table) {
       entry = "automatic";
       continue;
     }
-    std::visit([&](const auto& value) { entry = value; }, current);
+    entry = json_of(current);
   }
   return json.dump(2);
 }

@@ -1,16 +1,21 @@
-// Single description of every option set: a plain struct with defaults, and one Schema<T> with name, unit, range and help of each member. Lua tables, `--set
-// stage.option=value`, help, manual and manifest are all generated from it. A member missing from the table causes a compile error.
+// Single description of every option set and request: a plain struct with defaults, and one Schema<T> with name, unit, range and help of each member. Lua
+// tables, `--set stage.option=value`, strings of the command line, help, manual, manifest and stored values are all generated from it. A member missing from
+// the table causes a compile error.
 #pragma once
 
 #include <array>
 #include <cstdint>
 #include <functional>
 #include <limits>
+#include <optional>
 #include <span>
 #include <string>
 #include <string_view>
 #include <variant>
 #include <vector>
+
+#include "geom/base/member_count.h"
+#include "geom/base/vec3.h"
 
 namespace sterna {
 
@@ -27,17 +32,38 @@ std::string_view to_string(Unit unit);
 
 inline constexpr double k_unbounded = std::numeric_limits<double>::infinity();
 
+/// Point or vector without a value: the default of a required one.
+inline constexpr Vec3 k_no_vector{k_automatic, k_automatic, k_automatic};
+
+/// Access to a member of an enumeration type by the index of its enumerator.
+template <class T>
+struct EnumMember {
+  int (*get)(const T&);
+  void (*set)(T&, int);
+};
+
+/// Describes the member `Pointer`, whose enumerators are numbered from 0 on in the order of the field's `choices`.
+template <class T, auto Pointer>
+constexpr EnumMember<T> enum_member() {
+  using E = std::remove_reference_t<decltype(std::declval<T&>().*Pointer)>;
+  static_assert(std::is_enum_v<E>);
+  return {[](const T& object) { return static_cast<int>(object.*Pointer); }, [](T& object, int index) { object.*Pointer = static_cast<E>(index); }};
+}
+
 /// One member of an options struct.
 template <class T>
 struct Field {
   std::string_view name;
-  std::variant<bool T::*, int T::*, double T::*, std::string T::*> member;
+  std::variant<bool T::*, int T::*, double T::*, std::string T::*, Vec3 T::*, std::optional<Vec3> T::*, std::vector<double> T::*, std::vector<Vec3> T::*,
+               EnumMember<T>>
+      member;
   Unit unit = Unit::none;
   double min = -k_unbounded;  ///< smallest valid value
   double max = k_unbounded;   ///< largest valid value
   std::string_view help;
   std::string_view automatic = {};  ///< for numbers: meaning of k_automatic or k_automatic_count, e.g. "50 body lengths"; empty = a number is required
-  std::string_view choices = {};    ///< for strings: allowed values, separated by blanks; empty = any. For numbers: names of some values: "coarse=0.5 fine=2"
+  std::string_view choices = {};    ///< for strings and enumerations: allowed values, separated by blanks; empty = any. For numbers: names of some values:
+                                    ///< "coarse=0.5 fine=2"
   bool required = false;            ///< the user must set the option
 };
 
@@ -49,8 +75,12 @@ struct Field {
 template <class T>
 struct Schema;
 
-using OptionValue = std::variant<bool, std::int64_t, double, std::string>;
-enum class OptionKind { boolean, integer, number, text };
+/// The value of an option. An enumeration is the name of its enumerator; std::monostate is an optional vector without a value.
+using OptionValue = std::variant<bool, std::int64_t, double, std::string, Vec3, std::vector<double>, std::vector<Vec3>, std::monostate>;
+enum class OptionKind { boolean, integer, number, text, vector, numbers, vectors };
+
+/// Returns "a whole number", "{x, y, z}" and so on, for messages.
+std::string_view kind_text(OptionKind kind);
 
 /// Type-erased view of one option of an existing options struct (which must outlive the view).
 struct Option {
@@ -68,8 +98,10 @@ struct Option {
   std::function<OptionValue()> get;
   std::function<void(const OptionValue&)> store;  ///< stores without any check; use set_option
 
-  /// Returns true if the value is k_automatic, or is k_automatic_count for an integer option that allows it.
+  /// Returns true if the value is k_automatic, is k_automatic_count for an integer option that allows it, or is an optional vector without a value.
   bool is_automatic_value(const OptionValue& value) const;
+  /// Returns false if the option has no valid value: an automatic or empty one, k_no_vector, or a number out of its range. A required option needs one.
+  bool has_value() const;
   /// Returns "0.35", "automatic (50 body lengths)" or "required".
   std::string default_text() const;
   /// Returns "1 <= x", "0 .. 1 rad" or "one of a, b"; empty if any value is valid.
@@ -80,21 +112,40 @@ using OptionTable = std::vector<Option>;
 
 namespace detail {
 
-/// Converts to any type that a schema can describe; used to count the members of an aggregate.
-struct AnyMember {
-  template <class U>
-  operator U() const;  // never defined
-};
+/// Returns the name with an index in a list of names separated by blanks; empty if there is none.
+std::string_view choice_at(std::string_view choices, int index);
+/// Returns the index of a name in such a list; -1 if it is not there.
+int index_of_choice(std::string_view choices, std::string_view name);
 
-template <class T, std::size_t... I>
-constexpr bool is_brace_constructible(std::index_sequence<I...>) {
-  return requires { T{((void)I, AnyMember{})...}; };
+template <class M>
+constexpr OptionKind kind_of_member() {
+  if constexpr (std::is_same_v<M, bool>) return OptionKind::boolean;
+  else if constexpr (std::is_same_v<M, int>) return OptionKind::integer;
+  else if constexpr (std::is_same_v<M, double>) return OptionKind::number;
+  else if constexpr (std::is_same_v<M, std::string>) return OptionKind::text;
+  else if constexpr (std::is_same_v<M, std::vector<double>>) return OptionKind::numbers;
+  else if constexpr (std::is_same_v<M, std::vector<Vec3>>) return OptionKind::vectors;
+  else return OptionKind::vector;
 }
 
-template <class T, std::size_t N = 0>
-constexpr std::size_t member_count() {
-  if constexpr (is_brace_constructible<T>(std::make_index_sequence<N + 1>{})) return member_count<T, N + 1>();
-  else return N;
+template <class M>
+OptionValue value_of_member(const M& value) {
+  if constexpr (std::is_same_v<M, int>) return static_cast<std::int64_t>(value);
+  else if constexpr (std::is_same_v<M, std::optional<Vec3>>) return value ? OptionValue(*value) : OptionValue(std::monostate{});
+  else return value;
+}
+
+template <class T, class M>
+void set_access(Option& option, T& object, const T& defaults, M T::*member) {
+  option.kind = kind_of_member<M>();
+  option.default_value = value_of_member(defaults.*member);
+  option.get = [&object, member] { return value_of_member(object.*member); };
+  option.store = [&object, member](const OptionValue& v) {
+    if constexpr (std::is_same_v<M, int>) object.*member = static_cast<int>(std::get<std::int64_t>(v));
+    else if constexpr (std::is_same_v<M, std::optional<Vec3>>)
+      object.*member = std::holds_alternative<Vec3>(v) ? std::optional(std::get<Vec3>(v)) : std::nullopt;
+    else object.*member = std::get<M>(v);
+  };
 }
 
 }  // namespace detail
@@ -102,7 +153,7 @@ constexpr std::size_t member_count() {
 /// Returns the options of `instance`, in schema order. `instance` must outlive the table.
 template <class T>
 OptionTable options_of(T& instance) {
-  static_assert(detail::member_count<T>() == Schema<T>::fields.size(), "every member of the options struct needs one entry in its Schema");
+  static_assert(member_count<T>() == Schema<T>::fields.size(), "every member of the options struct needs one entry in its Schema");
   static const T defaults{};
   OptionTable table;
   for (const Field<T>& field : Schema<T>::fields) {
@@ -117,19 +168,16 @@ OptionTable options_of(T& instance) {
     option.choices = field.choices;
     option.required = field.required;
     std::visit(
-        [&](auto member) {
-          using M = std::remove_reference_t<decltype(instance.*member)>;
+        [&]<class Member>(Member member) {
           T* object = &instance;
-          if constexpr (std::is_same_v<M, int>) {
-            option.kind = OptionKind::integer;
-            option.default_value = static_cast<std::int64_t>(defaults.*member);
-            option.get = [object, member] { return OptionValue(static_cast<std::int64_t>(object->*member)); };
-            option.store = [object, member](const OptionValue& v) { object->*member = static_cast<int>(std::get<std::int64_t>(v)); };
+          if constexpr (std::is_same_v<Member, EnumMember<T>>) {
+            const std::string_view choices = field.choices;
+            option.kind = OptionKind::text;
+            option.default_value = std::string(detail::choice_at(choices, member.get(defaults)));
+            option.get = [object, member, choices] { return OptionValue(std::string(detail::choice_at(choices, member.get(*object)))); };
+            option.store = [object, member, choices](const OptionValue& v) { member.set(*object, detail::index_of_choice(choices, std::get<std::string>(v))); };
           } else {
-            option.kind = std::is_same_v<M, bool> ? OptionKind::boolean : std::is_same_v<M, double> ? OptionKind::number : OptionKind::text;
-            option.default_value = defaults.*member;
-            option.get = [object, member] { return OptionValue(object->*member); };
-            option.store = [object, member](const OptionValue& v) { object->*member = std::get<M>(v); };
+            detail::set_access(option, *object, defaults, member);
           }
         },
         field.member);
@@ -137,7 +185,6 @@ OptionTable options_of(T& instance) {
   }
   return table;
 }
-
 /// Sets one option after checking type, range and choices. Integers are accepted for floating-point options.
 /// \throws Error(bad_argument) with name, value, unit and range.
 void set_option(const Option& option, const OptionValue& value);
@@ -146,11 +193,11 @@ void set_option(const Option& option, const OptionValue& value);
 /// \throws Error(unknown_option) with the nearest name as a suggestion; \p attempted starts the message.
 const Option& find_option(const OptionTable& table, std::string_view name, std::string_view attempted);
 
-/// Parses `text` according to the option's kind ("35*deg", "35deg", "2.5mm", "1e-6", "true", "automatic" ...) and sets the option.
+/// Parses `text` according to the option's kind ("35*deg", "35deg", "2.5mm", "1e-6", "true", "automatic", "0,0,1.5m" ...) and sets the option.
 /// \throws Error(bad_argument)
 void set_option_from_text(const Option& option, std::string_view text);
 
-/// \throws Error(bad_argument) naming every required option of the table that has no value (NaN)
+/// \throws Error(bad_argument) naming every required option of the table that has no value (Option::has_value)
 void require_options(const OptionTable& table, std::string_view attempted);
 
 /// Returns the candidate with the smallest edit distance if it is small enough for a likely misspelling; else an empty string.
@@ -158,6 +205,33 @@ std::string nearest_name(std::string_view name, std::span<const std::string> can
 
 /// Returns a JSON object {"envelope": {"layers": 30, ...}, ...} of all options of the table; NaN is written as "automatic".
 std::string options_to_json(const OptionTable& table);
+
+/// Returns a JSON object {"name": "prop", "center": [0, 0, 0], ...} of one value, without members that have no value
+/// (Option::has_value) and empty lists.
+std::string value_to_json(const OptionTable& table);
+/// Sets the options of a table from such an object. Members that the object does not have keep their value.
+/// \throws Error(bad_argument) for an unknown member or a value that is not allowed; \p attempted starts the message
+void set_value_from_json(const OptionTable& table, std::string_view json, std::string_view attempted);
+/// Returns the elements of a JSON list as JSON. \throws Error(bad_argument) if the text is no list
+std::vector<std::string> elements_of_json(std::string_view json, std::string_view attempted);
+/// Returns a JSON list of JSON values.
+std::string list_to_json(std::span<const std::string> elements);
+
+/// Returns a JSON list of values with a Schema, for manifests and stored values.
+template <class T>
+std::string values_to_json(std::vector<T> values) {
+  std::vector<std::string> elements;
+  for (T& value : values) elements.push_back(value_to_json(options_of(value)));
+  return list_to_json(elements);
+}
+/// Reads a list that values_to_json wrote. \throws Error(bad_argument)
+template <class T>
+std::vector<T> values_of_json(std::string_view json) {
+  const std::string attempted = "reading " + std::string(Schema<T>::stage) + " from JSON";
+  std::vector<T> values;
+  for (const std::string& element : elements_of_json(json, attempted)) set_value_from_json(options_of(values.emplace_back()), element, attempted);
+  return values;
+}
 
 /// Returns several lines with name, default, unit, range and help of each option, for --help and help().
 std::string options_help(const OptionTable& table);

@@ -78,7 +78,7 @@ struct Archive {
     if constexpr (IsPlain<T>::value) {
       sink.put(&value, sizeof value);
     } else {
-      static_assert(k_members<T> > 0, "say in stored_types.h how many members this struct has");
+      static_assert(k_members<T> > 0, "only plain structs are stored member by member");
       with_members<k_members<T>>(value, [&](const auto&... members) { (write_value(sink, members), ...); });
     }
   }

@@ -6,13 +6,26 @@
 namespace sterna::scripting {
 namespace {
 
+std::string number_text(double number) {
+  if (is_automatic(number)) return "automatic";
+  char text[40];
+  std::snprintf(text, sizeof text, "%.17g", number);
+  return text;
+}
+
 std::string value_text(const OptionValue& value) {
-  if (const auto* number = std::get_if<double>(&value)) {
-    if (is_automatic(*number)) return "automatic";
-    char text[40];
-    std::snprintf(text, sizeof text, "%.17g", *number);
+  if (const auto* number = std::get_if<double>(&value)) return number_text(*number);
+  if (const auto* v = std::get_if<Vec3>(&value)) return number_text(v->x) + " " + number_text(v->y) + " " + number_text(v->z);
+  std::string text;
+  if (const auto* numbers = std::get_if<std::vector<double>>(&value)) {
+    for (const double number : *numbers) text += number_text(number) + " ";
     return text;
   }
+  if (const auto* vectors = std::get_if<std::vector<Vec3>>(&value)) {
+    for (const Vec3& v : *vectors) text += value_text(v) + " ";
+    return text;
+  }
+  if (std::holds_alternative<std::monostate>(value)) return "automatic";
   if (const auto* whole = std::get_if<std::int64_t>(&value)) return std::to_string(*whole);
   if (const auto* flag = std::get_if<bool>(&value)) return *flag ? "true" : "false";
   return std::get<std::string>(value);

@@ -1,14 +1,20 @@
-// The members of plain structs, in order, so that keys and stored results need no list of names for each struct. Each struct declares its number of members.
-// The compiler rejects a wrong number, so a member added later cannot be omitted from a key or from a stored result.
+// The members of plain structs, in order, so that keys and stored results need no list of names for each struct. The compiler counts the members, so a member
+// added later cannot be omitted from a key or from a stored result.
 #pragma once
 
 #include <cstddef>
+#include <type_traits>
+
+#include "geom/base/member_count.h"
 
 namespace sterna::scripting {
 
-/// Number of members of a struct that may be decomposed; specialised in stored_types.h. Zero: the struct may not be decomposed.
+/// Number of members of a struct that may be decomposed. Zero: the type is no plain struct.
 template <class T>
-inline constexpr std::size_t k_members = 0;
+inline constexpr std::size_t k_members = [] {
+  if constexpr (std::is_class_v<T> && std::is_aggregate_v<T>) return member_count<T>();
+  else return std::size_t{0};
+}();
 
 /// Calls f with all members of `value`.
 template <std::size_t N, class T, class F>

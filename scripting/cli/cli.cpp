@@ -35,6 +35,7 @@
 #include "scripting/terminal/console.h"
 #include "scripting/terminal/exit_status.h"
 #include "scripting/terminal/interrupt.h"
+#include "scripting/values/model_surface.h"
 #include "scripting/values/repair_surfaces.h"
 #include "scripting/values/verbs.h"
 #include "scripting/verbs/draw_command.h"
@@ -157,54 +158,7 @@ void add_mesh_command(CLI::App& app, MeshCommand& mesh, OptionOverrides& set, Re
           "--stages", mesh.stages,
           "write surface, envelope, tetrahedra and mesh to this .sterna file; `sterna mesh case.sterna -o ...` continues after the last step in the file")
       ->type_name("FILE");
-  command
-      ->add_option(
-          "--disc", mesh.discs,
-          "an actuator disc in the fluid, e.g. --disc \"prop center=-0.4,0,0 axis=1,0,0 radius=1.2 inner_radius=0.25 edge=5cm\"; may be given several times")
-      ->type_name("DISC")
-      ->allow_extra_args(false)
-      ->take_all();
-  command
-      ->add_option("--wake-sheet", mesh.sheets,
-                   "experimental: continue layers behind trailing edges, e.g. --wake-sheet \"wing=main* length=2\" (chords), or --wake-sheet auto; growth, "
-                   "direction; may be given several times")
-      ->type_name("SHEET")
-      ->allow_extra_args(false)
-      ->take_all();
-  command
-      ->add_option("--periodic", mesh.periodic,
-                   "two flat sides, each the translated image of the other, e.g. --periodic left,right: the meshes of both sides match node by node; may be "
-                   "given several times")
-      ->type_name("FIRST,SECOND")
-      ->allow_extra_args(false)
-      ->take_all();
-  command
-      ->add_option(
-          "--source", mesh.sources,
-          "shorter edges in a region, e.g. --source \"cylinder from=1,0,0 to=8,0,0 radius=0.5 size=5cm\"; point, line, box, sphere, cylinder, wake; may be "
-          "given several times")
-      ->type_name("SOURCE")
-      ->allow_extra_args(false)
-      ->take_all();
-  command
-      ->add_option(
-          "--wake", mesh.wakes,
-          "shorter edges behind the whole body, e.g. --wake length=2 (body lengths), or --wake \"length=3 size=5cm direction=1,0,0.05\"; size_end, spread")
-      ->type_name("WAKE")
-      ->allow_extra_args(false)
-      ->take_all();
-  command
-      ->add_option_function<std::string>(
-          "--farfield",
-          [&mesh](const std::string& text) {
-            for (auto& [name, value] : farfield_of_text(text)) mesh.options.emplace_back(std::move(name), std::move(value));
-          },
-          "farfield around the bodies: \"sphere radius=100 edge=20\", \"box -10 -5 -5 20 5 5 edge=2 x_min=inflow x_max=outflow,edge:0.5\", \"cylinder -10 0 0 "
-          "20 0 0 radius=5 edge=1\", \"none\", or the file of a closed surface")
-      ->type_name("SHAPE");
-  command->add_flag(
-      "--half", mesh.is_half,
-      "mesh half of the surface, cut at a plane, by default the half y > 0; other planes with --set half.axis=z --set half.at=0.5 --set half.keep=-");
+  add_volume_arguments(*command, mesh.volume, mesh.options, "mesh");
   command->add_flag("--auto", mesh.is_auto,
                     "take the files unchanged if they can be meshed, otherwise repair them, otherwise wrap them; remesh triangulations with many sliver "
                     "triangles; unite crossing parts of models, or mesh their faces with triangles first. Summary and manifest begin with the changes");
@@ -235,10 +189,6 @@ void add_mesh_command(CLI::App& app, MeshCommand& mesh, OptionOverrides& set, Re
   add_schema_options(*command, sterna::options_of(writing), mesh.writing);
   add_set_option(*command, set);
   add_cache_options(*command, mesh.cache);
-  add_patch_option(*command, mesh.patches,
-                   "options of patches with matching names, e.g. --patch \"tunnel*:layers=20,first_height=2e-5\": kind (slip, symmetry, inflow, outflow, "
-                   "farfield, interface, wall), layers, first_height, max_growth, total_height, max_thickness, blend, open_ridges, truncate; for models also "
-                   "the options of `sterna surface --patch`: max_edge ...; may be given several times");
   command->footer(
       "--time-limit applies to the tetrahedra engines and to reading of models (read_cad.time_limit). Numbers can have units: 0.5mm, 35deg, --unit inch; "
       "without units they are metres, degrees, kelvin. Heights can be computed from the flow: --first-height \"y_plus 1 mach=0.78 altitude=11000 length=4.2\", "
@@ -246,7 +196,7 @@ void add_mesh_command(CLI::App& app, MeshCommand& mesh, OptionOverrides& set, Re
       "mesh are set with --set surface_mesh.max_edge=0.2; `sterna surface --help` lists them.");
   command->final_callback([&, command] {
     for (const auto& [name, value] : set)
-      (name.starts_with("half.")            ? mesh.half
+      (name.starts_with("half.")            ? mesh.volume.half
        : name.starts_with("remesh.")        ? mesh.remesh
        : name.starts_with("fill_crevices.") ? mesh.crevices
        : name.starts_with("write.")         ? mesh.writing

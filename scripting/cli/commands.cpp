@@ -161,25 +161,6 @@ bool is_given(const MeshCommand& command, std::string_view stage, std::string_vi
   });
 }
 
-/// Reads the file of the shape "surface", if one is named, and adds it to the wall's inputs.
-void read_farfield_of(volmesh::MeshCase& options, SurfaceValue& wall, const RunContext& context) {
-  const SurfaceHandle surface = read_farfield(
-      options.farfield,
-      [](const std::string& name) {
-        return InputPath{name, name};
-      },
-      context);
-  if (!surface) return;
-  options.farfield_surface = std::shared_ptr<const TriMesh>(surface, &surface->mesh);
-  wall.inputs.insert(wall.inputs.end(), surface->inputs.begin(), surface->inputs.end());
-}
-
-/// Adds refinement regions and wakes behind the body.
-void add_sources(const MeshCommand& command, const TriMesh& wall, volmesh::MeshCase& options) {
-  for (const std::string& text : command.sources) options.sources.push_back(source_of_text(text));
-  for (const std::string& text : command.wakes) options.sources.push_back(wake_of_text(text, wall));
-}
-
 /// Continues from the last step. Options of the command line override those of the file.
 MeshValue continue_mesh(const StageContent& steps, const MeshCommand& command, const Reuse& reuse, const CommandContext& context) {
   if (!command.stages.empty())
@@ -192,14 +173,14 @@ MeshValue continue_mesh(const StageContent& steps, const MeshCommand& command, c
   };
   refuse_without_effect(command.given, {"--half", "--auto", "--repair", "--wrap", "--remesh", "--fill-crevices"}, "mesh",
                         "the surface is complete already in " + command.inputs.front(), "start again from the surface");
-  for (const OptionOverrides* options : {&command.half, &command.remesh, &command.crevices})
+  for (const OptionOverrides* options : {&command.volume.half, &command.remesh, &command.crevices})
     if (!options->empty()) refuse_done(options->front().first);
-  if (!command.discs.empty()) refuse_done("--disc");
-  if (!command.sheets.empty()) refuse_done("--wake-sheet");
-  if (!command.periodic.empty()) refuse_done("--periodic");
-  if (!command.patches.empty()) refuse_done("--patch");
-  if (steps.tetrahedra && !command.sources.empty()) refuse_done("--source");
-  if (steps.tetrahedra && !command.wakes.empty()) refuse_done("--wake");
+  if (!command.volume.discs.empty()) refuse_done("--disc");
+  if (!command.volume.sheets.empty()) refuse_done("--wake-sheet");
+  if (!command.volume.periodic.empty()) refuse_done("--periodic");
+  if (!command.volume.patches.empty()) refuse_done("--patch");
+  if (steps.tetrahedra && !command.volume.sources.empty()) refuse_done("--source");
+  if (steps.tetrahedra && !command.volume.wakes.empty()) refuse_done("--wake");
   volmesh::MeshCase options = steps.envelope->options, all;
   const volmesh::MeshSteps to_come = volmesh::k_finish_step | (steps.tetrahedra ? volmesh::MeshSteps{0} : volmesh::k_tetrahedra_step);
   const OptionTable open = volmesh::options_of(options, to_come);
@@ -213,41 +194,12 @@ MeshValue continue_mesh(const StageContent& steps, const MeshCommand& command, c
     SurfaceValue inputs;
     read_farfield_of(options, inputs, context.run);
   }
-  add_sources(command, steps.envelope->wall->mesh, options);
+  if (!command.volume.sources.empty() || !command.volume.wakes.empty()) options.sources.clear();  // those of the command replace those of the file
+  add_sources(command.volume, steps.envelope->wall->mesh, options);
   const RunContext part = context.run.part("volume_mesh", k_read_end, k_mesh_end);
   context.run.info("continuing after the " + std::string(steps.tetrahedra ? "tetrahedra" : "envelope") + " of " + command.inputs.front());
   return steps.tetrahedra ? finish_mesh(*steps.tetrahedra, options, part, reuse)
                           : finish_mesh(make_tetrahedra(*steps.envelope, options, part, reuse), options, part, reuse);
-}
-
-std::vector<volmesh::ActuatorDisc> discs_of(const MeshCommand& command) {
-  std::vector<volmesh::ActuatorDisc> discs;
-  for (const std::string& text : command.discs) discs.push_back(disc_of_text(text));
-  return discs;
-}
-
-std::vector<volmesh::WakeSheet> sheets_of(const MeshCommand& command) {
-  std::vector<volmesh::WakeSheet> sheets;
-  for (const std::string& text : command.sheets) sheets.push_back(wake_sheet_of_text(text));
-  return sheets;
-}
-
-std::vector<volmesh::PeriodicNames> periodic_of(const MeshCommand& command) {
-  std::vector<volmesh::PeriodicNames> pairs;
-  for (const std::string& text : command.periodic) pairs.push_back(periodic_of_text(text));
-  return pairs;
-}
-
-/// With --half: takes the half of the surface.
-void halve(const MeshCommand& command, SurfaceValue& wall, const CommandContext& context) {
-  if (!command.is_half) {
-    if (!command.half.empty())
-      throw Error({.code = ErrorCode::bad_argument, .attempted = "option " + command.half.front().first, .problem = "is given without --half"});
-    return;
-  }
-  HalfOptions options;
-  set_options(sterna::options_of(options), command.half, context);
-  wall = half_surface(wall, options, context.run);
 }
 
 /// With --fill-crevices: fills crevices of the surface that gets the layers.
@@ -255,12 +207,6 @@ void fill_wall(const MeshCommand& command, SurfaceValue& wall, const CommandCont
   volmesh::CreviceOptions options;
   set_options(sterna::options_of(options), command.crevices, context);
   wall = filled_crevices(wall, options, context.run);
-}
-
-std::vector<volmesh::SizeSource> sources_of(const std::vector<std::string>& texts) {
-  std::vector<volmesh::SizeSource> sources;
-  for (const std::string& text : texts) sources.push_back(source_of_text(text));
-  return sources;
 }
 
 /// With --remesh: remeshes the surface with the fineness of the family. Sources refine the surface in the same way as the volume.
@@ -273,8 +219,8 @@ void remesh_wall(const MeshCommand& command, const volmesh::MeshCase& volume, Su
   RemeshRecipe recipe;
   if (is_given(command, "family", "refinement")) recipe.options.refinement = volume.family.refinement;
   set_options(sterna::options_of(recipe.options), command.remesh, context);
-  layer_rules_of(command.patches, &recipe.patches);
-  recipe.sources = sources_of(command.sources);
+  layer_rules_of(command.volume.patches, &recipe.patches);
+  recipe.sources = sources_of(command.volume.sources);
   wall = remeshed(wall, recipe, {}, context.run, reuse);
 }
 
@@ -303,7 +249,7 @@ void complete_options(volmesh::MeshCase& options, const MeshCommand& command, co
     if (is_flow_text(text)) context.info(name + ": " + quantity_of_text(text).text);
     if (name == "first_height" || name == "envelope.first_height") choose_boundary_layer(options, text);
   }
-  for (const auto& [names, of_patch] : command.patches)
+  for (const auto& [names, of_patch] : command.volume.patches)
     for (const auto& [name, text] : of_patch)
       if (is_flow_text(text)) context.info(name + " of " + names + ": " + quantity_of_text(text).text);
 }
@@ -344,7 +290,7 @@ MeshValue fill(const MeshCommand& command, SurfaceValue wall, const volmesh::Mes
   if (!command.is_auto || command.is_remeshed) return make_volume_mesh(wall, options, command.stages, part, reuse);
   RemeshRecipe recipe;
   recipe.options.refinement = options.family.refinement;
-  recipe.sources = sources_of(command.sources);
+  recipe.sources = sources_of(command.volume.sources);
   set_options(sterna::options_of(recipe.options), command.remesh, context);
   const std::size_t n_changes = wall.changes.size();
   const SurfaceValue first = without_needles(wall, recipe, part, reuse);
@@ -373,8 +319,8 @@ MeshValue make_mesh_of_models(const MeshCommand& command, const std::vector<Inpu
   SurfaceRecipe& recipe = asked.recipe;
   ReadCadOptions& reading = asked.reading;
   volmesh::MeshCase volume_options;
-  volume_options.patches = layer_rules_of(command.patches, &recipe.patches);
-  recipe.sources = sources_of(command.sources);  // one source applies to wall and volume
+  volume_options.patches = layer_rules_of(command.volume.patches, &recipe.patches);
+  recipe.sources = sources_of(command.volume.sources);  // one source applies to wall and volume
   if (!recipe.sources.empty()) recipe.sources_text = sources_text(recipe.sources, false);
   OptionTable table = volmesh::required_options_of(volume_options);
   add_preparation(command, asked, table);
@@ -388,17 +334,16 @@ MeshValue make_mesh_of_models(const MeshCommand& command, const std::vector<Inpu
   if (is_given(command, "family", "refinement") && !is_given(command, "surface_mesh", "refinement"))
     recipe.options.refinement = volume_options.family.refinement;
   complete_options(volume_options, command, context.run);
-  volume_options.discs = discs_of(command);
-  volume_options.wakes = sheets_of(command);
-  volume_options.periodic = asked.periodic = periodic_of(command);
+  read_features(command.volume, volume_options);
+  asked.periodic = volume_options.periodic;
   const RunContext surface_part = context.run.part("surface", 0.0, k_surface_end);
   SurfaceValue wall = command.is_auto ? auto_triangles(inputs, asked, reuse, surface_part)
                                       : mesh_model_files(inputs, reading, recipe, surface_part, reuse, volume_options.periodic);
   remesh_wall(command, volume_options, wall, reuse, context);
-  halve(command, wall, context);
+  wall = halved(command.volume, wall, context);
   if (!command.crevices.empty()) fill_wall(command, wall, context);
   read_farfield_of(volume_options, wall, context.run);
-  add_sources(command, wall.mesh, volume_options);
+  add_sources(command.volume, wall.mesh, volume_options);
   return fill(command, std::move(wall), volume_options, k_surface_end, reuse, context);
 }
 
@@ -410,27 +355,25 @@ MeshValue make_mesh(const MeshCommand& command, const Reuse& reuse, const Comman
   AutoSurface asked;
   volmesh::MeshCase volume_options;
   std::vector<surfmesh::PatchSurfaceOptions> sizes;  // sizes of the new triangles
-  volume_options.patches = layer_rules_of(command.patches, command.is_remeshed ? &sizes : nullptr);
-  asked.stitching.allow_open = command.is_half;
+  volume_options.patches = layer_rules_of(command.volume.patches, command.is_remeshed ? &sizes : nullptr);
+  asked.stitching.allow_open = command.volume.is_half;
   OptionTable table = volmesh::required_options_of(volume_options);
   for (Option& option : sterna::options_of(asked.stitching)) table.push_back(std::move(option));
   add_preparation(command, asked, table);
   AutoSurface unused;
   set_options(table, command.options, context, elsewhere_of(command, false, unused));
-  if (!command.sources.empty() && !command.is_remeshed)
+  if (!command.volume.sources.empty() && !command.is_remeshed)
     context.run.info(std::string("--source refines the volume; the triangles of the wall stay unchanged") +
                      (command.is_auto ? ", unless --auto remeshes the wall, where sources apply as well" : ": --remesh refines the wall, too"));
   complete_options(volume_options, command, context.run);
-  volume_options.discs = discs_of(command);
-  volume_options.wakes = sheets_of(command);
-  volume_options.periodic = periodic_of(command);
+  read_features(command.volume, volume_options);
   if (!volume_options.farfield.farfield_floor.empty()) asked.stitching.allow_open = true;
   SurfaceValue wall = wall_of(command, inputs, asked, reuse, context);
   remesh_wall(command, volume_options, wall, reuse, context);
-  halve(command, wall, context);
+  wall = halved(command.volume, wall, context);
   if (!command.crevices.empty()) fill_wall(command, wall, context);
   read_farfield_of(volume_options, wall, context.run);
-  add_sources(command, wall.mesh, volume_options);
+  add_sources(command.volume, wall.mesh, volume_options);
   return fill(command, std::move(wall), volume_options, k_read_end, reuse, context);
 }
 

@@ -12,6 +12,7 @@
 #include "geom/cad/read_cad.h"
 #include "scripting/cache/stage_cache.h"
 #include "scripting/cli/convert.h"
+#include "scripting/cli/volume_request.h"
 #include "scripting/command/command_context.h"
 #include "scripting/lua/script_call.h"
 #include "scripting/terminal/console.h"
@@ -40,24 +41,17 @@ struct RunCommand {
 struct MeshCommand {
   std::vector<std::string> inputs;
   std::vector<std::filesystem::path> outputs;
-  OptionOverrides options;                                       ///< --layers 30 as {"layers", "30"} and --set stage.option=value
-  std::vector<std::pair<std::string, OptionOverrides>> patches;  ///< pattern of names, options
+  VolumeRequest volume;
+  OptionOverrides options;  ///< --layers 30 as {"layers", "30"} and --set stage.option=value
   std::filesystem::path stats;
-  std::filesystem::path stages;       ///< .sterna file for the steps of the run; empty: none
-  std::vector<std::string> discs;     ///< strings for disc_of_text
-  std::vector<std::string> periodic;  ///< strings for periodic_of_text
-  std::vector<std::string> sources;   ///< strings for source_of_text
-  std::vector<std::string> sheets;    ///< strings for wake_sheet_of_text
-  std::vector<std::string> wakes;     ///< strings for wake_of_text
-  bool is_half = false;               ///< the surface is cut to its half
-  bool is_repaired = false;           ///< --repair: the files are repaired first
-  bool is_wrapped = false;            ///< --wrap: the files are wrapped first
-  bool is_auto = false;               ///< --auto: files are used as they are, or repaired, or wrapped; if triangles are slivers, they are remeshed
-  OptionOverrides half;               ///< --set half.axis=z; only with is_half
-  bool is_remeshed = false;           ///< the surface is remeshed first
-  OptionOverrides remesh;             ///< --set remesh.max_edge=0.1; only with is_remeshed
-  OptionOverrides crevices;           ///< --fill-crevices 0.1 as {"width", "0.1"} and --set fill_crevices.angle=45; empty: nothing is filled
-  OptionOverrides writing;            ///< --numbering and --set write.numbering=both
+  std::filesystem::path stages;  ///< .sterna file for the steps of the run; empty: none
+  bool is_repaired = false;      ///< --repair: the files are repaired first
+  bool is_wrapped = false;       ///< --wrap: the files are wrapped first
+  bool is_auto = false;          ///< --auto: files are used as they are, or repaired, or wrapped; if triangles are slivers, they are remeshed
+  bool is_remeshed = false;      ///< the surface is remeshed first
+  OptionOverrides remesh;        ///< --set remesh.max_edge=0.1; only with is_remeshed
+  OptionOverrides crevices;      ///< --fill-crevices 0.1 as {"width", "0.1"} and --set fill_crevices.angle=45; empty: nothing is filled
+  OptionOverrides writing;       ///< --numbering and --set write.numbering=both
   CacheChoice cache;
   std::vector<std::string> given;  ///< result of given_options
 };
@@ -149,9 +143,6 @@ int check_model(const CheckCommand& command, const CommandContext& context);
 /// `sterna union` of models, and `sterna convert` of a model to a model. `options` are checked against each command's schema.
 int unite_models(const UnionCommand& command, const CommandContext& context);
 int convert_model(const ConvertCommand& command, const CommandContext& context);
-
-/// Returns the options of `sterna surface`, and of `sterna mesh` of a model, except those of the volume. The arguments must outlive the table.
-OptionTable model_surface_options(surfmesh::SurfaceMeshOptions& surface, ReadCadOptions& reading);
 
 /// Returns the cache; null without a folder.
 /// \throws Error(write_failed) if the folder cannot be created

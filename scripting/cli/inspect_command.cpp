@@ -6,16 +6,15 @@
 #include <iterator>
 
 #include "geom/base/error.h"
-#include "geom/mesh/half.h"
 #include "scripting/command/cli_options.h"
 #include "scripting/terminal/exit_status.h"
 #include "scripting/values/flow_verbs.h"
 #include "scripting/values/inspect_surface.h"
 #include "scripting/values/layer_options.h"
+#include "scripting/values/model_surface.h"
 #include "scripting/values/models.h"
 #include "scripting/values/patch_rules.h"
 #include "scripting/verbs/half_verbs.h"
-#include "scripting/verbs/source_verbs.h"
 
 namespace sterna::scripting {
 namespace {
@@ -76,23 +75,11 @@ void add_inspect_arguments(CLI::App& command, InspectCommand& inspect, const std
   command.add_flag("--strict", inspect.is_strict, "exit status 1 also if there are warnings");
   command.add_option("--flow", inspect.flow, "flow conditions, for the y+ of the first height, e.g. --flow \"mach=0.78 altitude=11000 length=4.2\"")
       ->type_name("CONDITIONS");
-  command
-      .add_option(
-          "--source", inspect.sources,
-          "shorter edges in a region, as for `sterna mesh`, e.g. --source \"cylinder from=1,0,0 to=8,0,0 radius=0.5 size=5cm\"; may be given several times")
-      ->type_name("SOURCE")
-      ->allow_extra_args(false)
-      ->take_all();
-  command.add_flag("--half", inspect.is_half,
-                   "inspect half of the surface, cut at a plane as by `sterna mesh --half`, by default the half y > 0; other planes with --set half.axis=z "
-                   "--set half.at=0.5 --set half.keep=-");
+  add_volume_arguments(command, inspect.volume, inspect.options, "inspect");
   surfmesh::StitchOptions surface;
   volmesh::InspectRequest request;
   add_schema_options(command, inspect_options(surface, request), inspect.options);
   add_set_option(command, inspect.options);
-  add_patch_option(
-      command, inspect.patches,
-      "options of patches with matching names, as for `sterna mesh`, e.g. --patch \"tunnel*:layers=20,first_height=2e-5\"; may be given several times");
   command.footer(
       "Without --first-height the surface is inspected, but layer heights are not predicted. Options of later stages (tetrahedra ...) are accepted without "
       "effect. For models, options of the surface mesh are set with --set surface_mesh.max_edge=0.2.");
@@ -107,17 +94,15 @@ int execute(const InspectCommand& command, const CommandContext& context) {
   volmesh::InspectRequest request;
   ReadCadOptions reading;
   SurfaceRecipe recipe;
-  for (const std::string& source : command.sources) request.volume.sources.push_back(source_of_text(source));
-  request.volume.patches = layer_rules_of(command.patches, is_model ? &recipe.patches : nullptr);
-  if (is_model)
-    for (const std::string& source : command.sources) recipe.sources.push_back(source_of_text(source));
-  HalfOptions half;
-  const OptionOverrides of_half = half_options_of(command.options), others = options_but_half(command.options);
-  if (!command.is_half && !of_half.empty())
-    throw Error({.code = ErrorCode::bad_argument, .attempted = "option " + of_half.front().first, .problem = "is given without --half"});
+  request.volume.patches = layer_rules_of(command.volume.patches, is_model ? &recipe.patches : nullptr);
+  read_features(command.volume, request.volume);
+  if (is_model) recipe.sources = sources_of(command.volume.sources);
+  VolumeRequest volume = command.volume;
+  const OptionOverrides others = options_but_half(command.options);
+  volume.half = half_options_of(command.options);
   CommandContext silent = context;
   silent.only_options = false;
-  set_options(sterna::options_of(half), of_half, silent);
+  const HalfOptions half = half_options(volume, silent);
   surfmesh::StitchOptions unused_stitching;
   SurfaceRecipe unused_recipe;
   ReadCadOptions unused_reading;
@@ -127,16 +112,21 @@ int execute(const InspectCommand& command, const CommandContext& context) {
                : OptionsElsewhere{model_surface_options(unused_recipe.options, unused_reading),
                                   "applies to the faces of models, and " + name_of_input + " is a triangulation"};
   set_options(is_model ? inspect_options_of_models(recipe, reading, request) : inspect_options(surface, request), others, context, {elsewhere});
-  if (command.is_half) surface.allow_open = true;
+  if (volume.is_half || !request.volume.farfield.farfield_floor.empty()) surface.allow_open = true;
   choose_solve_for(
       request.volume, [&](std::string_view name) { return is_given(command, name); }, "reading the options");
   choose_family_wake(request.volume, is_given(command, "refinement"));
+  if (is_given(command, "refinement")) recipe.options.refinement = request.volume.family.refinement;  // as `sterna mesh`
   if (!command.flow.empty()) request.flow = quantity_of_text("y_plus 1 " + command.flow).flow;
   if (!command.output.empty()) require_inspection_output(command.output);
-  const SurfaceChange cut =
-      !command.is_half ? SurfaceChange() : [&](const SurfaceValue& whole, const RunContext& part) { return half_surface(whole, half, part); };
+  const BeforeInspection before{.cut = volume.is_half ? [&](const SurfaceValue& whole, const RunContext& part) { return half_surface(whole, half, part); }
+                                                      : decltype(BeforeInspection::cut)(),
+                                .complete_options = [&](SurfaceValue& wall, volmesh::MeshCase& options, const RunContext& part) {
+                                  read_farfield_of(options, wall, part);
+                                  add_sources(volume, wall.mesh, options);
+                                }};
   const Inspection report =
-      is_model ? inspect_models(inputs, reading, recipe, request, context.run, cut) : inspect_files(inputs, surface, request, context.run, cut);
+      is_model ? inspect_models(inputs, reading, recipe, request, context.run, before) : inspect_files(inputs, surface, request, context.run, before);
   context.console.end_progress();
   const std::string name = names_of(command);
   context.console.print(command.is_json ? json_of(report, name) : text_of(report, name));

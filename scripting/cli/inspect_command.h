@@ -22,14 +22,12 @@ inline constexpr std::string_view k_inspect_summary =
 
 struct InspectCommand {
   std::vector<std::string> inputs;
-  OptionOverrides options;                                       ///< --layers 30 as {"layers", "30"} and --set stage.option=value
-  std::vector<std::pair<std::string, OptionOverrides>> patches;  ///< pattern of names, options
-  std::vector<std::string> sources;                              ///< strings for source_of_text
-  std::string flow;                                              ///< "mach=0.78 altitude=11000 length=4.2"; empty: none
+  OptionOverrides options;  ///< --layers 30 as {"layers", "30"} and --set stage.option=value
+  VolumeRequest volume;
+  std::string flow;  ///< "mach=0.78 altitude=11000 length=4.2"; empty: none
   std::filesystem::path output;
   bool is_json = false;
   bool is_strict = false;  ///< warnings count as failures, too
-  bool is_half = false;    ///< the surface is cut to its half
 };
 
 /// Adds the arguments of the command, and calls `chosen` if the command is selected.

@@ -59,12 +59,6 @@ int check_model(const CheckCommand& command, const CommandContext& context) {
   return is_closed ? k_exit_success : k_exit_invalid;
 }
 
-OptionTable model_surface_options(surfmesh::SurfaceMeshOptions& surface, ReadCadOptions& reading) {
-  OptionTable table = sterna::options_of(surface);
-  for (Option& option : sterna::options_of(reading)) table.push_back(std::move(option));
-  return table;
-}
-
 namespace {
 
 /// With --auto the command also accepts triangulations, whose triangles are kept or wrapped. Rejects sizes of faces for them, which would have no effect.

@@ -23,7 +23,6 @@
 #include "scripting/values/manifest.h"
 #include "scripting/values/models.h"
 #include "scripting/values/patch_rules.h"
-#include "scripting/values/periodic_sides.h"
 #include "scripting/values/stages.h"
 #include "scripting/values/summary.h"
 #include "scripting/values/verbs.h"
@@ -47,6 +46,7 @@
 #include "scripting/verbs/surface_motion.h"
 #include "scripting/verbs/surface_verbs.h"
 #include "scripting/verbs/tunnel_verbs.h"
+#include "scripting/verbs/volume_case.h"
 #include "scripting/verbs/wrap_verbs.h"
 
 namespace sterna::scripting {
@@ -131,10 +131,9 @@ constexpr std::string_view k_volume_mesh_usage =
     "\"case.sterna\" }";
 
 ScriptValue make_mesh(const ScriptCall& call) {
-  volmesh::MeshCase options;
-  std::vector<InputFile> farfield_inputs;
-  const ScriptTable table = with_farfield(call, table_argument(call, 0, k_volume_mesh_usage), options.farfield_surface, farfield_inputs);
-  const OptionTable schema = volmesh::options_of(options);
+  VolumeCase made;
+  const ScriptTable table = with_farfield(call, table_argument(call, 0, k_volume_mesh_usage), made.options.farfield_surface, made.farfield_inputs);
+  const OptionTable schema = volmesh::options_of(made.options);
   TableReader reader(table, call.attempted());
   const std::vector<ScriptValue>& items = reader.items();
   const SurfaceHandle* wall = items.empty() ? nullptr : std::get_if<SurfaceHandle>(&items.front());
@@ -143,31 +142,18 @@ ScriptValue make_mesh(const ScriptCall& call) {
                        std::string(items.empty() ? "nothing" : type_text(items.front())));
   else if (items.size() > 1)
     reader.add_problem("takes one surface, not " + std::to_string(items.size()) + " (read_surface{ \"a.stl\", \"b.stl\" } joins files)");
-  const FunctionHandle first_heights = read_first_heights(reader, call);
-  reader.read_options(schema);
-  options.sources = read_sources(reader, call);
-  options.discs = read_interfaces(reader, call);
-  options.wakes = read_wakes(reader, call);
-  options.periodic = read_periodic(reader);
+  read_volume_case(reader, call, schema, SourceEntries::taken, made);
   std::filesystem::path stages;
   if (const ScriptValue* value = reader.field("stages")) {
     if (const auto* name = std::get_if<std::string>(value)) stages = output_path(call, *name);
     else reader.add_problem("stages: expected the name of a .sterna file, not " + std::string(type_text(*value)));
   }
-  options.patches = read_layer_rules(reader);
-  apply_overrides(call, schema);
-  choose_solve_for(options, reader, call);
-  choose_boundary_layer(options, reader, call);
-  choose_family_wake(options, reader, call);
-  volmesh::MeshCase known = options;
-  if (wall) known.patches.insert(known.patches.end(), (*wall)->layers.begin(), (*wall)->layers.end());  // the rules of the surface may give the first height
-  reader.require(volmesh::required_options_of(known));
+  complete_volume_case(reader, call, schema, made);
+  require_volume_options(reader, made, wall ? wall->get() : nullptr);
   reader.finish();
-  SurfaceValue given = **wall;
-  given.inputs.insert(given.inputs.end(), farfield_inputs.begin(), farfield_inputs.end());
-  set_first_heights(first_heights, given, options, call.session.context);
-  auto mesh =
-      std::make_shared<const MeshValue>(make_volume_mesh(given, options, stages, call.session.context.part("volume_mesh", 0.0, 1.0), call.session.reuse()));
+  const SurfaceValue given = wall_of_case(**wall, made, call.session.context);
+  auto mesh = std::make_shared<const MeshValue>(
+      make_volume_mesh(given, made.options, stages, call.session.context.part("volume_mesh", 0.0, 1.0), call.session.reuse()));
   if (call.session.on_mesh) call.session.on_mesh(*mesh);
   return mesh;
 }

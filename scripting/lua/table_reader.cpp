@@ -1,6 +1,7 @@
 #include "scripting/lua/table_reader.h"
 
 #include <algorithm>
+#include <optional>
 
 #include "geom/base/error.h"
 #include "scripting/lua/quantity.h"
@@ -27,14 +28,25 @@ std::string short_name(const Option& option) {
   return name.starts_with(prefix) ? name.substr(prefix.size()) : name;
 }
 
-std::string_view kind_text(OptionKind kind) {
-  switch (kind) {
-    case OptionKind::boolean: return "true or false";
-    case OptionKind::integer: return "a whole number";
-    case OptionKind::number: return "a number";
-    case OptionKind::text: return "a string";
+/// Returns the numbers of a list {1, 2, 3} without names.
+std::optional<std::vector<double>> list_of_numbers(const ScriptValue& value) {
+  const auto* table = std::get_if<TableHandle>(&value);
+  if (!table || !(*table)->fields.empty() || !(*table)->other_keys.empty()) return std::nullopt;
+  std::vector<double> numbers;
+  for (const ScriptValue& item : (*table)->items) {
+    if (const auto* number = std::get_if<double>(&item)) numbers.push_back(*number);
+    else if (const auto* whole = std::get_if<std::int64_t>(&item)) numbers.push_back(static_cast<double>(*whole));
+    else return std::nullopt;
   }
-  return "a value";
+  return numbers;
+}
+
+/// Returns the value of an option that is a vector or a list; nothing for any other option or value.
+std::optional<OptionValue> value_of_table(const Option& option, const ScriptValue& value) {
+  const std::optional<std::vector<double>> numbers = list_of_numbers(value);
+  if (option.kind == OptionKind::vector && numbers && numbers->size() == 3) return Vec3{(*numbers)[0], (*numbers)[1], (*numbers)[2]};
+  if (option.kind == OptionKind::numbers && numbers) return *numbers;
+  return std::nullopt;
 }
 
 /// Returns a hint to write a single string in place of a list of strings, if the option expects one string; else an empty text.
@@ -51,7 +63,26 @@ std::string as_one_text(const Option& option, const ScriptValue& value) {
 
 bool contains(const std::vector<std::string>& names, std::string_view name) { return std::ranges::find(names, name) != names.end(); }
 
+ScriptValue list_value(std::vector<ScriptValue> items) {
+  return std::make_shared<const ScriptTable>(ScriptTable{.items = std::move(items), .fields = {}, .other_keys = {}});
+}
+
 }  // namespace
+
+ScriptValue script_value_of(const OptionValue& value) {
+  return std::visit(
+      [](const auto& v) -> ScriptValue {
+        using V = std::decay_t<decltype(v)>;
+        if constexpr (std::is_same_v<V, Vec3>) return list_value({v.x, v.y, v.z});
+        else if constexpr (std::is_same_v<V, std::vector<double>>) return list_value({v.begin(), v.end()});
+        else if constexpr (std::is_same_v<V, std::vector<Vec3>>) {
+          std::vector<ScriptValue> points;
+          for (const Vec3& point : v) points.push_back(script_value_of(point));
+          return list_value(std::move(points));
+        } else return v;
+      },
+      value);
+}
 
 TableReader::TableReader(const ScriptTable& table, std::string attempted) : table_(table), attempted_(std::move(attempted)) {}
 
@@ -121,7 +152,8 @@ void TableReader::set(const Option& option, const std::string& key, const Script
              quantity && (*quantity)->is_length() && option.kind == OptionKind::number && option.unit == Unit::metre) {
       set_option(option, (*quantity)->metres);
       quantities_[std::string(option.stage) + "." + std::string(option.name)] = *quantity;
-    } else
+    } else if (const std::optional<OptionValue> read = value_of_table(option, value)) set_option(option, *read);
+    else
       add_problem(key + ": " + std::string(type_text(value)) + " is not allowed here, expected " + std::string(kind_text(option.kind)) + " (" +
                   std::string(option.help) + ")" + as_one_text(option, value));
     if (check_) check_->options.push_back({attempted_, std::string(option.stage) + "." + std::string(option.name), option.get()});

@@ -13,6 +13,9 @@
 
 namespace sterna::scripting {
 
+/// Returns the value of an option as a script writes it: vectors and lists as tables, no value as nil.
+ScriptValue script_value_of(const OptionValue& value);
+
 /// Reads one table of one call. Every entry must be read by one of the members; finish() reports the others as problems.
 class TableReader {
  public:

@@ -73,8 +73,7 @@ constexpr std::array<std::string_view, 4> k_reserved = {"slurm", "series.json", 
 ScriptValue runner_table(const char* kind, const OptionTable& options, TableHandle extra) {
   auto table = std::make_shared<ScriptTable>();
   table->fields["runner"] = std::string(kind);
-  for (const Option& option : options)
-    table->fields[std::string(option.name)] = std::visit([](const auto& value) -> ScriptValue { return value; }, option.get());
+  for (const Option& option : options) table->fields[std::string(option.name)] = script_value_of(option.get());
   if (extra) table->fields["options"] = extra;
   return TableHandle(table);
 }

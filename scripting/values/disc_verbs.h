@@ -21,9 +21,4 @@ std::vector<volmesh::ActuatorDisc> read_interfaces(TableReader& reader, const Sc
 /// \throws Error(bad_argument, unknown_option)
 volmesh::ActuatorDisc disc_of_text(const std::string& text);
 
-/// discs_json returns discs as a JSON list, for manifests and the files of stages; the second function reads such a list.
-/// \throws Error(bad_argument) if the text is no such list
-std::string discs_json(const std::vector<volmesh::ActuatorDisc>& discs);
-std::vector<volmesh::ActuatorDisc> discs_of_json(const std::string& text);
-
 }  // namespace sterna::scripting

@@ -182,7 +182,7 @@ void foresee_remesh(const TriMesh& wall, const InspectRequest& request, Inspecti
 }  // namespace
 
 Inspection inspect_files(std::span<const InputPath> inputs, const surfmesh::StitchOptions& options, InspectRequest request, const RunContext& context,
-                         const SurfaceChange& cut) {
+                         const BeforeInspection& before) {
   WallFiles files = read_wall_files(inputs, options, context.part("read", 0.0, 0.5 * k_joined));
   files.wall.options.check_intersections = false;  // inspect_wall finds the pairs itself
   std::optional<Finding> refusal;
@@ -200,7 +200,8 @@ Inspection inspect_files(std::span<const InputPath> inputs, const surfmesh::Stit
   Inspection report;
   const RunContext inspecting = context.part("inspect", k_joined, k_inspected);
   if (wall) {
-    if (cut) wall = cut(*wall, context.part("half", k_joined, k_joined));
+    if (before.cut) wall = before.cut(*wall, context.part("half", k_joined, k_joined));
+    if (before.complete_options) before.complete_options(*wall, request.volume, context);
     request.volume = with_wall_facts(*wall, request.volume);
     static_cast<InspectReport&>(report) = volmesh::inspect_wall(wall->mesh, request, inspecting);
     if (refusal) replace_finding(report, std::move(*refusal));
@@ -240,7 +241,7 @@ Inspection inspect_surface(const SurfaceValue& surface, InspectRequest request, 
 }
 
 Inspection inspect_models(std::span<const InputPath> files, const ReadCadOptions& reading, const SurfaceRecipe& recipe, InspectRequest request,
-                          const RunContext& context, const SurfaceChange& cut) {
+                          const RunContext& context, const BeforeInspection& before) {
   std::optional<Error> refusal;
   SurfaceValue surface;
   ModelsOfFiles models = read_model_files(files, reading, recipe, context.part("read", 0.0, k_joined * k_read));
@@ -283,8 +284,9 @@ Inspection inspect_models(std::span<const InputPath> files, const ReadCadOptions
       return report;
     }
   }
-  if (cut) surface = cut(surface, context.part("half", k_joined, k_joined));
-  Inspection report = inspect_joined(surface, request, !cut, context.part("inspect", k_joined, 1.0));
+  if (before.cut) surface = before.cut(surface, context.part("half", k_joined, k_joined));
+  if (before.complete_options) before.complete_options(surface, request.volume, context);
+  Inspection report = inspect_joined(surface, request, !before.cut, context.part("inspect", k_joined, 1.0));
   report.expected_triangles = expected;
   if (many) replace_finding(report, std::move(*many));
   if (refusal) replace_finding(report, finding_of(*refusal, request));

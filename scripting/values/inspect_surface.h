@@ -21,18 +21,21 @@ struct Inspection : volmesh::InspectReport {
   std::optional<double> remeshed_triangles;  ///< predicted number of new triangles, if remesh is advised
 };
 
-using SurfaceChange = std::function<SurfaceValue(const SurfaceValue&, const RunContext&)>;
+/// What a caller does with the surface before it is inspected.
+struct BeforeInspection {
+  std::function<SurfaceValue(const SurfaceValue&, const RunContext&)> cut;                          ///< a change of the surface (half); may be empty
+  std::function<void(SurfaceValue&, volmesh::MeshCase&, const RunContext&)> complete_options = {};  ///< options that depend on the surface; may be empty
+};
 
 /// Reads the files and joins them as read_surface does. Errors of reading or joining become findings, and as much as possible is still inspected. The rules of
 /// manifests beside the files come before those of the request.
 /// \throws Error of io (no such file, no such format), cancelled
-/// \param cut change of the surface before the inspection (half); may be empty
 Inspection inspect_files(std::span<const InputPath> files, const surfmesh::StitchOptions& options, volmesh::InspectRequest request, const RunContext& context,
-                         const SurfaceChange& cut = {});
+                         const BeforeInspection& before = {});
 /// Meshes the models' faces as mesh_model_files does, and inspects that surface. If meshing fails, inspects their triangles including the crossings.
 /// \throws Error of reading models and of options; of meshing only if the error is not about the surface; cancelled
 Inspection inspect_models(std::span<const InputPath> files, const ReadCadOptions& reading, const SurfaceRecipe& recipe, volmesh::InspectRequest request,
-                          const RunContext& context, const SurfaceChange& cut = {});
+                          const RunContext& context, const BeforeInspection& before = {});
 /// \throws Error(cancelled)
 Inspection inspect_surface(const SurfaceValue& surface, volmesh::InspectRequest request, const RunContext& context);
 

@@ -8,7 +8,7 @@
 
 #include "geom/base/error.h"
 #include "scripting/cache/sealed_file.h"
-#include "scripting/values/kept_types.h"
+#include "scripting/values/stored_types.h"
 #include "scripting/values/value_keys.h"
 
 namespace sterna::scripting {

@@ -148,8 +148,8 @@ std::string manifest_json(const MeshValue& mesh, const std::filesystem::path& ou
     if (volume.first_heights)
       json["first_heights"] = {{"by", "a function of location"}, {"least", volume.first_heights->least()}, {"greatest", volume.first_heights->greatest()}};
     if (!volume.sources.empty()) json["sources"] = Json::parse(sources_text(volume.sources, false));
-    if (!volume.discs.empty()) json["actuator_discs"] = Json::parse(discs_json(volume.discs));
-    if (!volume.wakes.empty()) json["wake_sheets"] = Json::parse(wakes_json(volume.wakes));
+    if (!volume.discs.empty()) json["actuator_discs"] = Json::parse(values_to_json(volume.discs));
+    if (!volume.wakes.empty()) json["wake_sheets"] = Json::parse(values_to_json(volume.wakes));
     if (!volume.periodic.empty()) json["periodic"] = Json::parse(periodic_json(volume.periodic));
   }
   json["patches"] = Json::array();

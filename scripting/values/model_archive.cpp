@@ -9,24 +9,9 @@
 #include "geom/model/nurbs_surface.h"
 #include "geom/model/swept_surfaces.h"
 #include "geom/model/transformed.h"
-#include "scripting/values/kept_types.h"
 #include "scripting/values/stored_types.h"
 
 namespace sterna::scripting {
-
-// Data of curves and surfaces.
-template <>
-inline constexpr std::size_t k_members<Frame> = 4;
-template <>
-inline constexpr std::size_t k_members<SurfaceView::Map> = 2;
-template <class P>
-inline constexpr std::size_t k_members<NurbsCurveForm<P>> = 4;
-template <>
-inline constexpr std::size_t k_members<NurbsSurfaceForm> = 8;
-template <>
-inline constexpr std::size_t k_members<ModelCorner> = 2;
-template <>
-inline constexpr std::size_t k_members<ModelSolid> = 3;
 
 namespace {
 

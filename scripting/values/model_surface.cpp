@@ -288,22 +288,7 @@ surfmesh::SpaceSizes space_sizes(const SurfaceRecipe& recipe, const std::functio
 
 std::string sources_text(const std::vector<volmesh::SizeSource>& sources, bool has_function) {
   if (sources.empty() && !has_function) return {};
-  const auto point = [](const Vec3& p) { return nlohmann::ordered_json{p.x, p.y, p.z}; };
-  nlohmann::ordered_json list = nlohmann::ordered_json::array();
-  for (const volmesh::SizeSource& s : sources) {
-    if (s.kind == volmesh::SourceKind::samples) list.push_back({{"kind", to_string(s.kind)}, {"points", s.points.size()}});
-    else
-      list.push_back({{"kind", to_string(s.kind)},
-                      {"from", point(s.from)},
-                      {"to", point(s.to)},
-                      {"direction", point(s.direction)},
-                      {"radius", s.radius},
-                      {"length", s.length},
-                      {"height", s.height},
-                      {"spread", s.spread},
-                      {"size", s.size},
-                      {"size_end", s.size_end}});
-  }
+  nlohmann::ordered_json list = nlohmann::ordered_json::parse(values_to_json(sources));
   if (has_function) list.push_back({{"kind", "function"}});
   return list.dump();
 }
@@ -406,6 +391,12 @@ surfmesh::SurfaceForecast forecast_models(const std::vector<ModelHandle>& models
   SurfaceRecipe recipe = asked;
   add_rules(models, all, recipe);
   return surfmesh::forecast_surface(all.model, recipe.options, recipe.patches, space_sizes(recipe, {}), context);
+}
+
+OptionTable model_surface_options(surfmesh::SurfaceMeshOptions& surface, ReadCadOptions& reading) {
+  OptionTable table = sterna::options_of(surface);
+  for (Option& option : sterna::options_of(reading)) table.push_back(std::move(option));
+  return table;
 }
 
 }  // namespace sterna::scripting

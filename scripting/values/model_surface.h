@@ -66,4 +66,7 @@ std::vector<surfmesh::PatchSurfaceOptions> patch_rules_of_json(const std::string
 /// function.
 std::string sources_text(const std::vector<volmesh::SizeSource>& sources, bool has_function);
 
+/// Returns the options of `sterna surface`, and of `sterna mesh` of a model, except those of the volume. The arguments must outlive the table.
+OptionTable model_surface_options(surfmesh::SurfaceMeshOptions& surface, ReadCadOptions& reading);
+
 }  // namespace sterna::scripting

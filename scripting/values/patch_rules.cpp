@@ -34,17 +34,6 @@ void read_rule(const std::string& names, const ScriptValue& value, std::string_v
   }
 }
 
-Json to_json(const OptionValue& value) {
-  return std::visit([](const auto& v) { return Json(v); }, value);
-}
-
-void set_from_json(const Option& option, const Json& value) {
-  if (value.is_boolean()) set_option(option, value.get<bool>());
-  else if (value.is_number_integer()) set_option(option, value.get<std::int64_t>());
-  else if (value.is_number()) set_option(option, value.get<double>());
-  else set_option(option, value.get<std::string>());
-}
-
 }  // namespace
 
 void read_patch_rules(TableReader& reader, std::string_view example, const AddRule& add) {
@@ -130,9 +119,10 @@ std::vector<volmesh::PatchRule> layer_rules_of(const std::vector<std::pair<std::
 }
 
 std::string rule_json(const std::string& names, const OptionTable& options) {
+  OptionTable changed = options;
+  std::erase_if(changed, is_default);
   Json entry = {{"names", names}};
-  for (const Option& option : options)
-    if (!is_default(option)) entry[std::string(option.name)] = to_json(option.get());
+  entry.update(Json::parse(value_to_json(changed)));
   return entry.dump();
 }
 
@@ -145,12 +135,11 @@ void read_rules_json(const std::string& text, std::string_view attempted, const 
   if (!list.is_array()) refuse();
   for (const Json& entry : list) {
     if (!entry.is_object() || !entry.contains("names") || !entry["names"].is_string()) refuse();
-    const OptionTable options = add(entry["names"].get<std::string>());
-    for (const auto& [name, value] : entry.items()) {
-      if (name == "names") continue;
+    Json values = entry;
+    values.erase("names");
+    for (const Json& value : values)
       if (!value.is_primitive() || value.is_null()) refuse();
-      set_from_json(find_option(options, name, attempted), value);
-    }
+    set_value_from_json(add(entry["names"].get<std::string>()), values.dump(), attempted);
   }
 }
 

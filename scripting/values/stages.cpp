@@ -159,9 +159,9 @@ std::string unfinished_json(const SurfaceValue& wall, const volmesh::MeshCase& o
   if (!wall.changed.empty()) json["changed"] = Json::parse(changed_json(wall.changed));
   if (wall.smooth_angle) json["wall"] = {{"max_smooth_angle", *wall.smooth_angle}};
   if (const std::vector<volmesh::PatchRule> rules = rules_of(wall, options); !rules.empty()) json["patch_rules"] = Json::parse(layer_rules_json(rules));
-  json["sources"] = options.sources.size();
-  if (!options.discs.empty()) json["actuator_discs"] = Json::parse(discs_json(options.discs));
-  if (!options.wakes.empty()) json["wake_sheets"] = Json::parse(wakes_json(options.wakes));
+  if (!options.sources.empty()) json["sources"] = Json::parse(values_to_json(options.sources));
+  if (!options.discs.empty()) json["actuator_discs"] = Json::parse(values_to_json(options.discs));
+  if (!options.wakes.empty()) json["wake_sheets"] = Json::parse(values_to_json(options.wakes));
   if (!options.periodic.empty()) json["periodic"] = Json::parse(periodic_json(options.periodic));
   json["stage"] = std::move(stage);
   return json.dump(2) + "\n";
@@ -199,12 +199,6 @@ class StageJson {
     }
   }
 
-  /// Returns false for files of older versions, which made layers on walls without splitting slivers.
-  bool knows_needles() const { return json_.contains(Json::json_pointer("/options/needles")); }
-
-  /// Returns false for files of older versions, which gave members of a family no sources.
-  bool knows_family_wake() const { return json_.contains(Json::json_pointer("/options/family/family_wake")); }
-
   std::vector<volmesh::PatchRule> patch_rules() const {
     return json_.contains("patch_rules") ? layer_rules_of_json(json_.at("patch_rules").dump()) : std::vector<volmesh::PatchRule>{};
   }
@@ -236,12 +230,12 @@ class StageJson {
 
   std::vector<volmesh::ActuatorDisc> discs() const {
     const auto found = json_.find("actuator_discs");
-    return found == json_.end() ? std::vector<volmesh::ActuatorDisc>() : discs_of_json(found->dump());
+    return found == json_.end() ? std::vector<volmesh::ActuatorDisc>() : values_of_json<volmesh::ActuatorDisc>(found->dump());
   }
 
   std::vector<volmesh::WakeSheet> wakes() const {
     const auto found = json_.find("wake_sheets");
-    return found == json_.end() ? std::vector<volmesh::WakeSheet>() : wakes_of_json(found->dump());
+    return found == json_.end() ? std::vector<volmesh::WakeSheet>() : values_of_json<volmesh::WakeSheet>(found->dump());
   }
 
   std::vector<volmesh::PeriodicNames> periodic() const {
@@ -275,10 +269,9 @@ class StageJson {
 
   bool is_opened() const { return json_.contains(Json::json_pointer("/stage/is_opened")) && get<bool>("/stage/is_opened"); }
 
-  /// Returns the number of sources. Files of finished runs list the sources, other files only count them.
-  std::size_t n_sources() const {
+  std::vector<volmesh::SizeSource> sources() const {
     const auto found = json_.find("sources");
-    return found == json_.end() ? 0 : found->is_array() ? found->size() : get<std::size_t>("/sources");
+    return found == json_.end() ? std::vector<volmesh::SizeSource>() : values_of_json<volmesh::SizeSource>(found->dump());
   }
 
  private:
@@ -448,9 +441,6 @@ EnvelopeValue make_envelope(const SurfaceHandle& wall, const volmesh::MeshCase& 
 
 TetrahedraValue make_tetrahedra(const EnvelopeValue& envelope, const volmesh::MeshCase& options, const RunContext& context, const Reuse& reuse) {
   require_ready(envelope, options, context);
-  if (envelope.n_sources_in_file > 0 && options.sources.empty())
-    context.warn("the run that made this envelope had " + std::to_string(envelope.n_sources_in_file) +
-                 " sources of the size field, which .sterna files do not store: give the sources again");
   const SurfaceValue& wall = *envelope.wall;
   return {.wall = envelope.wall,
           .n_wall_triangles = n_triangles(wall),
@@ -523,9 +513,8 @@ StageContent read_stages(const InputPath& file, const RunContext& context) {
     const StageJson json(content.manifest, file);
     auto wall = std::make_shared<SurfaceValue>(*surface_of(std::move(*content.surface), json.inputs(), context));
     volmesh::MeshCase options;
-    if (!json.knows_needles()) options.needles.split_needles = 0.0;
-    if (!json.knows_family_wake()) options.family.family_wake = "off";
     json.read_options(all_options(wall->options, options));
+    options.sources = json.sources();
     options.discs = json.discs();
     options.wakes = json.wakes();
     options.periodic = json.periodic();
@@ -540,8 +529,7 @@ StageContent read_stages(const InputPath& file, const RunContext& context) {
     result.surface = wall;
     volmesh::EnvelopeStage envelope{
         .envelope = envelope_of(std::move(*content.envelope), file), .feature_angle = json.get<double>("/stage/feature_angle"), .closed = json.closed_fans()};
-    result.envelope = std::make_shared<const EnvelopeValue>(
-        EnvelopeValue{.wall = wall, .options = options, .stage = envelope, .step = json.step(), .n_sources_in_file = json.n_sources()});
+    result.envelope = std::make_shared<const EnvelopeValue>(EnvelopeValue{.wall = wall, .options = options, .stage = envelope, .step = json.step()});
     if (content.tetrahedra && content.mesh)
       result.tetrahedra = std::make_shared<const TetrahedraValue>(TetrahedraValue{.wall = wall,
                                                                                   .n_wall_triangles = json.get<std::int64_t>("/stage/wall_triangles"),

@@ -20,7 +20,6 @@ struct EnvelopeValue {
   volmesh::EnvelopeStage stage;
   volmesh::EnvelopeStep step = volmesh::EnvelopeStep::finished;  ///< last step that was performed, if the steps are called one by one (envelope_steps.h)
   std::shared_ptr<const volmesh::Classification> classes = {};   ///< result of the step "classified", which makes no other data
-  std::size_t n_sources_in_file = 0;                             ///< number of sources in the run that wrote the file of this value; `options` do not have them
 };
 
 /// Layer and tetrahedra, not yet combined to one mesh.

@@ -5,7 +5,7 @@
 #include <vector>
 
 #include "geom/base/error.h"
-#include "scripting/values/kept_types.h"
+#include "scripting/values/stored_types.h"
 #include "scripting/values/value_keys.h"
 #include "volmesh/envelope/build_envelope.h"
 
@@ -16,9 +16,6 @@ struct StartedEnvelope {
   volmesh::PartEnvelope part;
   std::string outcome;
 };
-template <>
-inline constexpr std::size_t k_members<StartedEnvelope> = 2;
-
 namespace {
 
 using surfmesh::CarriedMesh;

@@ -1,6 +1,7 @@
 #include "scripting/values/typed_number.h"
 
 #include <cctype>
+#include <sstream>
 #include <string>
 
 #include "geom/base/error.h"
@@ -23,6 +24,27 @@ void set_option_as_typed(const Option& option, std::string_view text) {
     info.problem = std::string(option.name) + ": \"" + std::string(text) + "\" is neither a number nor a unit of length (m, mm, um, cm, inch, in, ft)";
     throw Error(std::move(info));
   }
+}
+
+std::vector<std::string> set_options_as_typed(const OptionTable& options, std::string_view text, std::string_view attempted) {
+  std::vector<std::string> others;
+  std::istringstream words{std::string(text)};
+  for (std::string word; words >> word;) {
+    const std::size_t equals = word.find('=');
+    if (equals == std::string::npos) {
+      others.push_back(std::move(word));
+      continue;
+    }
+    try {
+      set_option_as_typed(find_option(options, word.substr(0, equals), attempted), word.substr(equals + 1));
+    } catch (const Error& error) {
+      ErrorInfo info = error.info();
+      if (info.attempted != attempted) info.problem = word.substr(0, equals) + ": " + info.problem;
+      info.attempted = std::string(attempted);
+      throw Error(std::move(info));
+    }
+  }
+  return others;
 }
 
 }  // namespace sterna::scripting

@@ -95,7 +95,7 @@ ContentKey key_of(const volmesh::FilledStage& stage) {
 std::optional<ContentKey> key_of(const EnvelopeValue& envelope) {
   const std::optional<ContentKey> wall = key_of(*envelope.wall);
   if (!wall) return std::nullopt;
-  const auto& [wall_handle, options, stage, step, classes, n_sources_in_file] =
+  const auto& [wall_handle, options, stage, step, classes] =
       envelope;  // lists all members, so that a new member does not compile until it is handled; classes follow from the others
   return KeyMaker("envelope value").add(*wall).add(volume_options_key(options)).add(key_of(stage)).add(to_string(step)).key();
 }

@@ -22,9 +22,4 @@ std::vector<volmesh::WakeSheet> read_wakes(TableReader& reader, const ScriptCall
 /// \throws Error(bad_argument, unknown_option)
 volmesh::WakeSheet wake_sheet_of_text(const std::string& text);
 
-/// wakes_json returns wake sheets as a JSON list, for manifests and the files of stages; the second function reads it.
-/// \throws Error(bad_argument) if the text is no such list
-std::string wakes_json(const std::vector<volmesh::WakeSheet>& wakes);
-std::vector<volmesh::WakeSheet> wakes_of_json(const std::string& text);
-
 }  // namespace sterna::scripting

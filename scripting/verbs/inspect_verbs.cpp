@@ -1,20 +1,18 @@
 #include "scripting/verbs/inspect_verbs.h"
 
+#include <algorithm>
 #include <array>
 #include <cmath>
 
 #include "scripting/lua/quantity.h"
 #include "scripting/lua/table_reader.h"
 #include "scripting/lua/verb_tools.h"
-#include "scripting/values/disc_verbs.h"
 #include "scripting/values/inspect_surface.h"
 #include "scripting/values/layer_options.h"
+#include "scripting/values/model_surface.h"
 #include "scripting/values/models.h"
-#include "scripting/values/patch_rules.h"
-#include "scripting/values/periodic_sides.h"
-#include "scripting/values/wake_verbs.h"
 #include "scripting/verbs/farfield_verbs.h"
-#include "scripting/verbs/source_verbs.h"
+#include "scripting/verbs/volume_case.h"
 
 namespace sterna::scripting {
 namespace {
@@ -125,25 +123,34 @@ Given read_given(const ScriptCall& call, TableReader& reader) {
   return given;
 }
 
+/// Returns the options of reading models and of their surface that are no options of volume_mesh as well.
+OptionTable options_of_models_alone(SurfaceRecipe& recipe, ReadCadOptions& reading) {
+  OptionTable table = model_surface_options(recipe.options, reading);
+  volmesh::MeshCase volume;
+  const OptionTable of_volume = volmesh::options_of(volume);
+  std::erase_if(table,
+                [&](const Option& option) { return option.name == "periodic" || std::ranges::find(of_volume, option.name, &Option::name) != of_volume.end(); });
+  return table;
+}
+
 ScriptValue inspect(const ScriptCall& call) {
   volmesh::InspectRequest request;
-  volmesh::MeshCase& options = request.volume;
-  std::vector<InputFile> farfield_inputs;
-  const ScriptTable table = with_farfield(call, inspection_table(call), options.farfield_surface, farfield_inputs);
+  VolumeCase made;
+  const ScriptTable table = with_farfield(call, inspection_table(call), made.options.farfield_surface, made.farfield_inputs);
   TableReader reader(table, call.attempted());
   const Given given = read_given(call, reader);
-  surfmesh::StitchOptions reading;
-  const OptionTable limits = sterna::options_of(request.limits), volume = volmesh::options_of(options), surface = sterna::options_of(reading);
-  const FunctionHandle first_heights = read_first_heights(reader, call);
-  reader.read_options(limits);
-  reader.read_options(volume);
   const bool is_model = std::ranges::any_of(given.files, [](const InputPath& file) { return is_model_file(file.path); });
-  if (!given.surface && !is_model) reader.read_options(surface);
-  options.sources = read_sources(reader, call);
-  options.discs = read_interfaces(reader, call);
-  options.wakes = read_wakes(reader, call);
-  options.periodic = read_periodic(reader);
-  options.patches = read_layer_rules(reader);
+  surfmesh::StitchOptions stitching;
+  ReadCadOptions reading;
+  SurfaceRecipe recipe;
+  const OptionTable limits = sterna::options_of(request.limits), volume = volmesh::options_of(made.options),
+                    surface = given.surface ? OptionTable()
+                              : is_model    ? options_of_models_alone(recipe, reading)
+                                            : sterna::options_of(stitching);
+  reader.read_options(limits);
+  reader.read_options(surface);
+  read_volume_case(reader, call, volume, SourceEntries::taken, made);
+  if (is_model) recipe.sources = made.options.sources;
   if (const ScriptValue* value = reader.field("flow")) {
     if (const auto* quantity = std::get_if<QuantityHandle>(value)) request.flow = (*quantity)->flow;
     else reader.add_problem("flow: expected flow{ mach = 0.78, altitude = 11000, length = 4.2 }, not " + std::string(type_text(*value)));
@@ -153,17 +160,18 @@ ScriptValue inspect(const ScriptCall& call) {
     if (const auto* name = std::get_if<std::string>(value)) output = output_path(call, *name);
     else reader.add_problem("output: expected the name of a .vtu or .png file, not " + std::string(type_text(*value)));
   }
-  for (const OptionTable* part : {&limits, &volume, &surface}) apply_overrides(call, *part);
-  choose_solve_for(options, reader, call);
-  choose_family_wake(options, reader, call);
-  if (first_heights && !given.surface) reader.add_problem("first_height: a function needs a surface as the first entry (from read_surface), not a file");
+  for (const OptionTable* part : {&limits, &surface}) apply_overrides(call, *part);
+  complete_volume_case(reader, call, volume, made);
+  if (reader.is_given("family", "refinement")) recipe.options.refinement = made.options.family.refinement;  // as `sterna mesh`
+  if (made.first_heights && !given.surface) reader.add_problem("first_height: a function needs a surface as the first entry (from read_surface), not a file");
   reader.finish();
   if (!output.empty()) require_inspection_output(output);
-  if (given.surface) set_first_heights(first_heights, *given.surface, options, call.session.context);
+  if (given.surface) set_first_heights(made.first_heights, *given.surface, made.options, call.session.context);
+  request.volume = made.options;
   const RunContext context = call.session.context.part("inspect", 0.0, 1.0);
   const Inspection report = given.surface ? inspect_surface(*given.surface, request, context)
-                            : is_model    ? inspect_models(given.files, {}, {}, request, context)
-                                          : inspect_files(given.files, reading, request, context);
+                            : is_model    ? inspect_models(given.files, reading, recipe, request, context)
+                                          : inspect_files(given.files, stitching, request, context);
   std::string name;
   if (given.surface)
     for (const InputFile& input : given.surface->inputs) name += (name.empty() ? "" : " ") + input.name;
@@ -178,7 +186,8 @@ std::string inspect_help() {
   return options_help(sterna::options_of(limits)) +
          "flow = flow{ ... }: compares the first height with y+ in this flow. output = \"trouble.vtu\": writes the surface with predicted heights, visibility "
          "angles, gaps and findings; \"trouble.png\": a picture\nThe options of volume_mesh are taken as well; without first_height the layer is not "
-         "predicted. With names of files the options of read_surface are taken, too\nReturns a table: ok (nothing is an error), errors, warnings, notes, "
+         "predicted. With names of files the options of read_surface, or for models those of read_cad and surface_mesh, are taken, too\nReturns a table: ok "
+         "(nothing is an error), errors, warnings, notes, "
          "coverage, compressed, collapsed (predicted shares of the area), findings = { { kind, severity, count, share, value, limit, unit, at, patch, text, "
          "advice, places = { { at, patch, value, what } } } }, preparation = { needed (none, repair, wrap, remesh, beyond), reason, at, command, script, hint, "
          "seconds (of one thread, about), basis, remesh (advised, perhaps after repair), needle_share }\n";

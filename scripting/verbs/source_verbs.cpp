@@ -18,47 +18,6 @@
 
 namespace sterna::scripting {
 
-/// The numbers of all kinds of sources. Each verb accepts some of them.
-struct SourceNumbers {
-  double size = k_automatic;
-  double size_end = k_automatic;
-  double radius = k_automatic;
-  double length = k_automatic;
-  double height = k_automatic;
-  double spread = k_automatic;
-};
-
-}  // namespace sterna::scripting
-
-namespace sterna {
-
-template <>
-struct Schema<scripting::SourceNumbers> {
-  using O = scripting::SourceNumbers;
-  static constexpr std::string_view stage = "source";
-  static constexpr std::array fields = {
-      Field<O>{.name = "size", .member = &O::size, .unit = Unit::metre, .min = 1e-12, .help = "edge length inside the region", .required = true},
-      Field<O>{.name = "size_end", .member = &O::size_end, .unit = Unit::metre, .min = 1e-12, .help = "edge length at the downstream end", .automatic = "size"},
-      Field<O>{.name = "radius",
-               .member = &O::radius,
-               .unit = Unit::metre,
-               .min = 0.0,
-               .help = "distance from the point or line within which the edge length applies",
-               .automatic = "0"},
-      Field<O>{.name = "length", .member = &O::length, .unit = Unit::metre, .min = 1e-12, .help = "length of the region along its direction", .required = true},
-      Field<O>{.name = "height", .member = &O::height, .unit = Unit::metre, .min = 0.0, .help = "thickness of the region at its start", .automatic = "0"},
-      Field<O>{.name = "spread",
-               .member = &O::spread,
-               .min = 0.0,
-               .max = 10.0,
-               .help = "growth of half the thickness per distance from the start",
-               .automatic = "0"},
-  };
-};
-
-}  // namespace sterna
-
-namespace sterna::scripting {
 namespace {
 
 using volmesh::SizeSource;
@@ -68,7 +27,7 @@ struct KindOfSource {
   SourceKind kind;
   std::string_view verb;
   std::size_t n_points;
-  std::string_view numbers;  ///< names of the numbers that the verb accepts, separated by blanks
+  std::string_view options;  ///< names of the options that the verb accepts, each between blanks
   std::string_view usage;
 };
 constexpr std::array<KindOfSource, 6> k_source_kinds = {{
@@ -77,7 +36,7 @@ constexpr std::array<KindOfSource, 6> k_source_kinds = {{
     {SourceKind::box, "box", 2, " size ", "box{ {-1, -2, -1}, {9, 2, 3}, size = 0.05 }"},
     {SourceKind::sphere, "sphere", 1, " size radius ", "sphere{ {0, 0, 0}, radius = 1, size = 0.1 }"},
     {SourceKind::cylinder, "cylinder", 2, " size radius ", "cylinder{ {0, 0, 0}, {8, 0, 0}, radius = 1, size = 0.1 }"},
-    {SourceKind::wake, "wake", 2, " size size_end length height spread ",
+    {SourceKind::wake, "wake", 2, " size size_end length height spread direction ",
      "wake{ {1, 0, 0}, {2, 5, 0}, direction = {1, 0, 0.05}, length = 10, height = 0.2, spread = 0.05, size = 0.05 }"},
 }};
 constexpr std::string_view k_wake_usage =
@@ -88,31 +47,22 @@ constexpr std::string_view k_samples_usage = "size_samples{ \"sizes.vtu\", name 
 /// Returns "line takes two points, size, radius".
 std::string keys_text(const KindOfSource& kind) {
   std::string text = std::string(kind.verb) + " takes " + (kind.n_points == 2 ? "two points" : "a point");
-  std::istringstream numbers{std::string(kind.numbers)};
-  for (std::string name; numbers >> name;) text += ", " + name;
-  return kind.kind == SourceKind::wake ? text + ", direction" : text;
+  std::istringstream options{std::string(kind.options)};
+  for (std::string name; options >> name;) text += ", " + name;
+  return text;
 }
 
-/// Returns the dimension of the value of a source with that key: that of the option if there is one, none for a direction, else a length.
-Unit unit_of_key(const std::string& key) {
-  SourceNumbers numbers;
-  for (const Option& option : sterna::options_of(numbers))
-    if (option.name == key) return option.unit;
-  return key == "direction" ? Unit::none : Unit::metre;
-}
-
-/// Returns the options of this kind; `numbers` must outlive them.
-OptionTable options_of(SourceNumbers& numbers, const KindOfSource& kind) {
-  OptionTable table = sterna::options_of(numbers);
-  std::erase_if(table, [&](const Option& option) { return kind.numbers.find(" " + std::string(option.name) + " ") == std::string_view::npos; });
+/// Returns the options of this kind; `source` must outlive them.
+OptionTable options_of(SizeSource& source, const KindOfSource& kind) {
+  OptionTable table = sterna::options_of(source);
+  std::erase_if(table, [&](const Option& option) { return kind.options.find(" " + std::string(option.name) + " ") == std::string_view::npos; });
   return table;
 }
 
 SizeSource source_of(ScriptTable table, const KindOfSource& kind, const std::string& attempted) {
   table.fields.erase("shape");  // the verb sets it; it is no key of the user's
   SizeSource source{.kind = kind.kind};
-  SourceNumbers numbers;
-  const OptionTable options = options_of(numbers, kind);
+  const OptionTable options = options_of(source, kind);
   TableReader reader(table, attempted);
   const std::vector<ScriptValue>& points = reader.items();
   const auto first = points.empty() ? std::nullopt : point_of(points[0]);
@@ -121,12 +71,6 @@ SizeSource source_of(ScriptTable table, const KindOfSource& kind, const std::str
     reader.add_problem("expected " + std::string(kind.n_points == 2 ? "two points" : "a point") + " {x, y, z}: " + std::string(kind.usage));
   if (first) source.from = *first;
   if (second) source.to = *second;
-  if (kind.kind == SourceKind::wake) {
-    if (const ScriptValue* direction = reader.field("direction")) {
-      if (const auto vector = point_of(*direction)) source.direction = *vector;
-      else reader.add_problem("direction: expected {x, y, z}");
-    }
-  }
   reader.read_options(options);
   reader.require(options);
   try {
@@ -136,13 +80,6 @@ SizeSource source_of(ScriptTable table, const KindOfSource& kind, const std::str
     info.hint = keys_text(kind);
     throw Error(std::move(info));
   }
-  const auto or_zero = [](double value) { return is_automatic(value) ? 0.0 : value; };
-  source.size = numbers.size;
-  source.size_end = or_zero(numbers.size_end);
-  source.radius = or_zero(numbers.radius);
-  source.length = or_zero(numbers.length);
-  source.height = or_zero(numbers.height);
-  source.spread = or_zero(numbers.spread);
   return source;
 }
 
@@ -181,8 +118,6 @@ ScriptValue make_cylinder_or_source(const ScriptCall& call) {
   return has_size(call) ? make_source_of_verb(call) : is_farfield(call) ? make_farfield_cylinder(call) : make_cylinder_model(call);
 }
 
-ScriptValue point_value(const Vec3& p) { return std::make_shared<const ScriptTable>(ScriptTable{.items = {p.x, p.y, p.z}, .fields = {}, .other_keys = {}}); }
-
 /// Makes wake{ wall, length = 2 }. The numbers follow from the surface, so the result is the table of an ordinary wake.
 ScriptValue make_wake_behind(const ScriptCall& call, const SurfaceHandle& wall) {
   const ScriptTable table = source_table(call);
@@ -190,23 +125,20 @@ ScriptValue make_wake_behind(const ScriptCall& call, const SurfaceHandle& wall) 
   volmesh::BodyWake wake;
   if (reader.items().size() > 1) reader.add_problem("takes one surface, or two points");
   reader.read_options(sterna::options_of(wake));
-  Vec3 direction{1.0, 0.0, 0.0};
-  if (const auto given = read_point(reader, "direction")) direction = *given;
   reader.finish();
   SizeSource source;
   try {
-    source = volmesh::wake_behind(wall->mesh, wake, direction);
+    source = volmesh::wake_behind(wall->mesh, wake);
   } catch (const Error& error) {
     ErrorInfo info = error.info();
     info.attempted = call.attempted();
     throw Error(std::move(info));
   }
   ScriptTable made;
-  made.items = {point_value(source.from), point_value(source.to)};
-  made.fields["direction"] = point_value(source.direction);
-  for (const auto& [name, value] :
-       {std::pair{"length", source.length}, {"height", source.height}, {"spread", source.spread}, {"size", source.size}, {"size_end", source.size_end}})
-    made.fields[name] = value;
+  made.items = {script_value_of(source.from), script_value_of(source.to)};
+  for (const Option& option : options_of(source, *kind_named("wake"))) {
+    made.fields[std::string(option.name)] = script_value_of(option.get());
+  }
   made.fields["shape"] = std::string("wake");
   return std::make_shared<const ScriptTable>(std::move(made));
 }
@@ -218,9 +150,9 @@ ScriptValue make_wake(const ScriptCall& call) {
 }
 
 std::string wake_help() {
-  SourceNumbers numbers;
+  SizeSource source;
   volmesh::BodyWake wake;
-  return options_help(options_of(numbers, k_source_kinds[5])) + "behind a surface, wake{ wall, length = 2 }:\n" + options_help(sterna::options_of(wake));
+  return options_help(options_of(source, k_source_kinds[5])) + "behind a surface, wake{ wall, length = 2 }:\n" + options_help(sterna::options_of(wake));
 }
 
 /// Makes size_samples{}. Only the table is checked here; the file is read by the verb that uses it.
@@ -251,8 +183,8 @@ SizeSource read_samples(const ScriptTable& table, const ScriptCall& call) {
 
 template <std::size_t I>
 std::string numbers_help() {
-  SourceNumbers numbers;
-  return options_help(options_of(numbers, k_source_kinds[I]));
+  SizeSource source;
+  return options_help(options_of(source, k_source_kinds[I]));
 }
 
 constexpr std::array<ScriptVerb, 6> k_source_verbs = {{
@@ -290,62 +222,52 @@ SizeSource source_of_text(const std::string& text) {
                  .problem = "\"" + verb + "\" is not a kind of source",
                  .hint = "known are " + names + "; such as \"sphere 0 0 0 radius=1 size=0.1\""});
   }
-  ScriptTable table;
-  std::vector<double> numbers;
-  const auto point_at = [](double x, double y, double z) {
-    return std::make_shared<const ScriptTable>(ScriptTable{.items = {x, y, z}, .fields = {}, .other_keys = {}});
-  };
-  for (std::string word; words >> word;) {
-    const std::size_t equals = word.find('=');
-    if (equals == std::string::npos) {
-      numbers.push_back(typed_number(word, Unit::metre));
-      continue;
+  SizeSource source{.kind = kind->kind, .from = k_no_vector, .to = k_no_vector};
+  OptionTable options = options_of(source, *kind);
+  for (const Option& option : sterna::options_of(source))
+    if (option.name == "from" || (option.name == "to" && kind->n_points == 2)) {
+      options.push_back(option);
+      options.back().required = true;
+      if (kind->n_points == 2) continue;
+      options.push_back(option);
+      options.back().name = "center";
     }
-    const std::string key = word.substr(0, equals);
-    std::vector<double> values;
-    std::istringstream list(word.substr(equals + 1));
-    for (std::string value; std::getline(list, value, ',');) values.push_back(typed_number(value, unit_of_key(key)));
-    if (key == "from" || key == "to" || key == "center") {
-      if (values.size() != 3) throw Error({.code = ErrorCode::bad_argument, .attempted = attempted, .problem = word + ": expected three coordinates"});
-      numbers.insert(key == "to" ? numbers.end() : numbers.begin(), values.begin(), values.end());
-      continue;
-    }
-    ScriptValue& field = table.fields[key];
-    if (values.size() == 1) field = values.front();
-    else if (values.size() == 3) field = point_at(values[0], values[1], values[2]);
-    else throw Error({.code = ErrorCode::bad_argument, .attempted = attempted, .problem = word + ": expected one number, or three for a direction"});
+  std::string rest;
+  std::getline(words, rest);
+  std::vector<double> coordinates;
+  try {
+    for (const std::string& word : set_options_as_typed(options, rest, attempted)) coordinates.push_back(typed_number(word, Unit::metre));
+  } catch (const Error& error) {
+    ErrorInfo info = error.info();
+    if (info.hint.find("did you mean") == std::string::npos) info.hint = keys_text(*kind);
+    throw Error(std::move(info));
   }
-  if (numbers.size() % 3 != 0)
-    throw Error({.code = ErrorCode::bad_argument,
-                 .attempted = attempted,
-                 .problem = "the number of coordinates must be a multiple of three, not " + std::to_string(numbers.size())});
-  for (std::size_t i = 0; i < numbers.size(); i += 3) table.items.push_back(point_at(numbers[i], numbers[i + 1], numbers[i + 2]));
-  return source_of(table, *kind, attempted);
+  if (!coordinates.empty()) {
+    if (!is_automatic(source.from.x) || !is_automatic(source.to.x))
+      throw Error({.code = ErrorCode::bad_argument, .attempted = attempted, .problem = "the points are given twice, with and without a name"});
+    if (coordinates.size() != 3 * kind->n_points)
+      throw Error({.code = ErrorCode::bad_argument,
+                   .attempted = attempted,
+                   .problem = "expected " + std::to_string(3 * kind->n_points) + " coordinates, found " + std::to_string(coordinates.size()),
+                   .hint = keys_text(*kind)});
+    source.from = {coordinates[0], coordinates[1], coordinates[2]};
+    if (kind->n_points == 2) source.to = {coordinates[3], coordinates[4], coordinates[5]};
+  }
+  require_options(options, attempted);
+  if (kind->n_points == 1) source.to = {};
+  return source;
 }
 
 SizeSource wake_of_text(const std::string& text, const TriMesh& wall) {
   const std::string attempted = "wake \"" + text + "\"";
   volmesh::BodyWake wake;
-  Vec3 direction{1.0, 0.0, 0.0};
-  const OptionTable table = sterna::options_of(wake);
-  std::istringstream words(text);
-  for (std::string word; words >> word;) {
-    const std::size_t equals = word.find('=');
-    if (equals == std::string::npos)
-      throw Error(
-          {.code = ErrorCode::bad_argument, .attempted = attempted, .problem = word + " is not NAME=VALUE", .hint = "such as --wake \"length=2 size=5cm\""});
-    const std::string value = word.substr(equals + 1);
-    if (word.substr(0, equals) != "direction") {
-      set_option_as_typed(find_option(table, word.substr(0, equals), attempted), value);
-      continue;
-    }
-    std::vector<double> numbers;
-    std::istringstream list(value);
-    for (std::string number; std::getline(list, number, ',');) numbers.push_back(typed_number(number, Unit::none));
-    if (numbers.size() != 3) throw Error({.code = ErrorCode::bad_argument, .attempted = attempted, .problem = word + ": expected three numbers"});
-    direction = {numbers[0], numbers[1], numbers[2]};
-  }
-  return volmesh::wake_behind(wall, wake, direction);
+  const std::vector<std::string> others = set_options_as_typed(sterna::options_of(wake), text, attempted);
+  if (!others.empty())
+    throw Error({.code = ErrorCode::bad_argument,
+                 .attempted = attempted,
+                 .problem = others.front() + " is not NAME=VALUE",
+                 .hint = "such as --wake \"length=2 size=5cm\""});
+  return volmesh::wake_behind(wall, wake);
 }
 
 ScriptValue make_sphere_source(const ScriptCall& call) { return make_source(call, *kind_named("sphere")); }

@@ -5,14 +5,11 @@
 
 #include "scripting/lua/script_check.h"
 #include "scripting/lua/verb_tools.h"
-#include "scripting/values/disc_verbs.h"
-#include "scripting/values/layer_options.h"
 #include "scripting/values/patch_rules.h"
-#include "scripting/values/periodic_sides.h"
 #include "scripting/values/stages.h"
-#include "scripting/values/wake_verbs.h"
 #include "scripting/verbs/farfield_verbs.h"
 #include "scripting/verbs/source_verbs.h"
+#include "scripting/verbs/volume_case.h"
 #include "volmesh/envelope/envelope.h"
 
 namespace sterna::scripting {
@@ -35,31 +32,18 @@ void require_entries(TableReader& reader, std::size_t n) {
 constexpr std::string_view k_envelope_usage = "make_envelope{ wall, layers = 35, first_height = 2e-6, max_growth = 1.35 }";
 
 ScriptValue make_envelope_verb(const ScriptCall& call) {
-  volmesh::MeshCase options;
-  std::vector<InputFile> farfield_inputs;
-  const ScriptTable table = with_farfield(call, table_argument(call, 0, k_envelope_usage), options.farfield_surface, farfield_inputs);
-  const OptionTable schema = envelope_options(options);
+  VolumeCase made;
+  const ScriptTable table = with_farfield(call, table_argument(call, 0, k_envelope_usage), made.options.farfield_surface, made.farfield_inputs);
+  const OptionTable schema = envelope_options(made.options);
   TableReader reader(table, call.attempted());
   const auto wall = entry<SurfaceHandle>(reader, 1, "a surface (from surface_mesh or read_surface)");
   require_entries(reader, 1);
-  const FunctionHandle first_heights = read_first_heights(reader, call);
-  reader.read_options(schema);
-  options.discs = read_interfaces(reader, call);
-  options.wakes = read_wakes(reader, call);
-  options.periodic = read_periodic(reader);
-  options.patches = read_layer_rules(reader);
-  apply_overrides(call, schema);
-  choose_solve_for(options, reader, call);
-  choose_boundary_layer(options, reader, call);
-  choose_family_wake(options, reader, call);
-  volmesh::MeshCase known = options;
-  if (wall) known.patches.insert(known.patches.end(), wall->layers.begin(), wall->layers.end());  // the rules of the surface may give the first height
-  reader.require(volmesh::required_options_of(known));
+  read_volume_case(reader, call, schema, SourceEntries::of_a_later_step, made);
+  complete_volume_case(reader, call, schema, made);
+  require_volume_options(reader, made, wall.get());
   reader.finish();
-  auto given = std::make_shared<SurfaceValue>(*wall);
-  given->inputs.insert(given->inputs.end(), farfield_inputs.begin(), farfield_inputs.end());
-  set_first_heights(first_heights, *given, options, call.session.context);
-  return std::make_shared<const EnvelopeValue>(make_envelope(given, options, call.session.context.part("make_envelope", 0.0, 1.0), call.session.reuse()));
+  const auto given = std::make_shared<const SurfaceValue>(wall_of_case(*wall, made, call.session.context));
+  return std::make_shared<const EnvelopeValue>(make_envelope(given, made.options, call.session.context.part("make_envelope", 0.0, 1.0), call.session.reuse()));
 }
 
 constexpr std::string_view k_tetrahedra_usage =

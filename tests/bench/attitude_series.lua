@@ -1,4 +1,4 @@
--- A series in which only the model's attitude changes; tools/measure_series runs it with and without its cache.
+-- A series in which only the attitude of the model changes. tools/measure_series runs it with and without its cache.
 local a = args{ model = "", unite = false, n = 4, from = -2, step = 2, layers = 30, first_height = 1e-5, cache = true, curvature_angle = 12, tunnel = 0 }
 local model = a.model:match "%.smx$" and read_smx(a.model) or a.model:match "%.xml$" and read_cpacs(a.model) or read_cad(a.model)
 if a.unite then model = union{ model } end

@@ -72,6 +72,38 @@ TEST_P(Continuation, AcceptsOptionsOfRemainingSteps) {
   for (const char* name : {"script.su2", "command.su2"}) EXPECT_TRUE(contents(name) == whole) << name << " differs";
 }
 
+/// A point with a target size, for size_samples.
+constexpr const char* k_sizes_vtu =
+    R"(<VTKFile type="UnstructuredGrid" version="1.0" byte_order="LittleEndian" header_type="UInt64"><UnstructuredGrid><Piece NumberOfPoints="1" NumberOfCells="1">
+<PointData><DataArray type="Float64" Name="size" format="ascii">0.5</DataArray></PointData>
+<Points><DataArray type="Float64" NumberOfComponents="3" format="ascii">2 0 0</DataArray></Points>
+<Cells><DataArray type="Int64" Name="connectivity" format="ascii">0</DataArray><DataArray type="Int64" Name="offsets" format="ascii">1</DataArray><DataArray type="UInt8" Name="types" format="ascii">1</DataArray></Cells>
+</Piece></UnstructuredGrid></VTKFile>
+)";
+
+class ContinuationWithSources : public Continuation {};
+
+TEST_P(ContinuationWithSources, FileHasTheSources) {
+  const std::string volume = std::string("volume_mesh{ read_surface 'box.stl', layers = 4, first_height = 2e-3, farfield = sphere{ radius = 6 }, ") +
+                             GetParam().options + ", stages = 'all.sterna' }:write 'whole.su2'";
+  std::ofstream(folder_ / "sizes.vtu") << k_sizes_vtu;
+  run("whole", volume);
+  std::filesystem::remove(folder_ / "sizes.vtu");
+  run("finished", "local e = read_stages('all.sterna').envelope\nprisms{ e, tetrahedra{ e } }:write 'finished.su2'");
+  run("without", "local e = read_stages('all.sterna').envelope\nprisms{ e, tetrahedra{ e, sources = {} } }:write 'without.su2'");
+  const std::string whole = contents("whole.su2");
+  EXPECT_GT(whole.size(), 10000u);
+  EXPECT_TRUE(contents("finished.su2") == whole);
+  EXPECT_FALSE(contents("without.su2") == whole) << "the sources have no effect";
+}
+
+INSTANTIATE_TEST_SUITE_P(Sources, ContinuationWithSources,
+                         testing::Values(Domain{"Shapes", "",
+                                                "sources = { sphere{ {2, 0.5, 0.5}, radius = 0.5, size = 0.2 }, wake{ {1, 0, 0.5}, {1, 1, 0.5}, length = 2, "
+                                                "height = 0.5, spread = 0.1, size = 0.2, size_end = 0.3, direction = {1, 0, 0.1} } }"},
+                                         Domain{"Samples", "", "sources = { size_samples 'sizes.vtu' }"}),
+                         [](const testing::TestParamInfo<Domain>& tested) { return std::string(tested.param.name); });
+
 INSTANTIATE_TEST_SUITE_P(
     Domains, Continuation,
     testing::Values(

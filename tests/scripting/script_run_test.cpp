@@ -163,7 +163,7 @@ TEST(ScriptRun, ActuatorDiscsAreCheckedWhereTheyAreMade) {
   EXPECT_EQ(run_text("local d = actuator_disc{ name = 'prop', center = {-0.4, 0, 0}, radius = 120*cm } print(d.name, d.radius, d.center[1])"),
             "prop\t1.2\t-0.4\n");
   const auto message = [](const std::string& text) { return std::string(error_of(text).what()); };
-  EXPECT_THAT(message("actuator_disc{ radius = 1 }"), testing::HasSubstr("center: required"));
+  EXPECT_THAT(message("actuator_disc{ radius = 1 }"), testing::HasSubstr("needs center (centre of the disc)"));
   EXPECT_THAT(message("actuator_disc{ center = {0, 0, 0} }"), testing::HasSubstr("radius"));
   EXPECT_THAT(message("actuator_disc{ center = {0, 0, 0}, radius = 1, inner = 0.2 }"), testing::HasSubstr("unknown key \"inner\""));
   EXPECT_THAT(message("volume_mesh{ read_surface 'box.stl', first_height = 1e-3, interfaces = { 3 } }"),

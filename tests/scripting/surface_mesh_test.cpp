@@ -120,7 +120,7 @@ TEST_F(SurfaceMeshVerb, TheCommandLineTakesPatchesAndSources) {
            {{"--patch", "wing"}, "is not NAMES:OPTION=VALUE"},
            {{"--patch", "tail:max_edge=0.1"}, "no face has a name like \"tail\""},
            {{"--source", "ball 0 0 0 size=1"}, "\"ball\" is not a kind of source"},
-           {{"--source", "point 0 0 size=1"}, "the number of coordinates must be a multiple of three"},
+           {{"--source", "point 0 0 size=1"}, "expected 3 coordinates, found 2"},
            {{"--source", "sphere 0 0 0 size=1 raduis=2"}, "did you mean \"radius\"?"},
            {{"--source", "line 0 0 0 1 0 0 size=1 thickness=2"}, "line takes two points, size, radius"},
            {{"--source", "point 0 0 0 size=12deg"}, "is an angle, expected a length"},

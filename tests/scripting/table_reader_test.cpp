@@ -36,8 +36,7 @@ TEST(TableReader, StageOptionsCanBeGivenFlatAndNested) {
     const bool is_automatic_number = std::holds_alternative<double>(value) && is_automatic(std::get<double>(value));
     const bool is_automatic_count = std::holds_alternative<std::int64_t>(value) && std::get<std::int64_t>(value) == k_automatic_count;
     const ScriptValue given =
-        is_automatic_count ? ScriptValue(std::string("automatic"))
-                           : std::visit([](const auto& v) -> ScriptValue { return v; }, is_automatic_number ? OptionValue(std::min(1e9, option.max)) : value);
+        is_automatic_count ? ScriptValue(std::string("automatic")) : script_value_of(is_automatic_number ? OptionValue(std::min(1e9, option.max)) : value);
     for (const bool is_nested : {false, true}) {
       ScriptTable input;
       if (is_nested) input.fields[std::string(option.stage)] = table({{std::string(option.name), given}});

@@ -79,7 +79,8 @@ bool wants_family_wake(const FamilyOptions& family) { return family.family_wake 
 
 }  // namespace
 
-SizeSource wake_behind(const TriMesh& wall, const BodyWake& wake, const Vec3& direction) {
+SizeSource wake_behind(const TriMesh& wall, const BodyWake& wake) {
+  const Vec3& direction = wake.direction;
   const std::string attempted = "placing a wake";
   const bool is_domain = encloses_fluid(wall);
   const Box domain = bounding_box(wall);
@@ -123,7 +124,7 @@ MeshCase with_family_wake(const TriMesh& surface, MeshCase options, const RunCon
   const BodyWake wake;
   TriMesh walls = surface;
   for (Patch& patch : walls.patches) patch.kind = kind_of_patch(patch, options);
-  const SizeSource source = wake_behind(walls, wake, {1.0, 0.0, 0.0});
+  const SizeSource source = wake_behind(walls, wake);
   const double f = options.family.refinement;
   context.info(
       print_text("wake source of a mesh family member: edges of %.4g m, %.4g m at the far end, %g body lengths behind the walls along x; custom sources or "

@@ -14,12 +14,13 @@ struct BodyWake {
   double size = k_automatic;
   double size_end = k_automatic;
   double spread = 0.05;
+  Vec3 direction{1.0, 0.0, 0.0};
 };
 /// Returns a size source with short edges in the wake of the body. The source is as wide and as high as the body, and reaches from the body's middle to
 /// `length` body lengths behind its end. In a surface that encloses its fluid (a tunnel with a model), the body is all walls except the outer walls, and the
 /// wake ends where the fluid ends.
 /// \throws Error(bad_argument) for a surface without walls, and for a surface that encloses its fluid and has only outer walls
-SizeSource wake_behind(const TriMesh& wall, const BodyWake& wake, const Vec3& direction);
+SizeSource wake_behind(const TriMesh& wall, const BodyWake& wake);
 
 /// Returns true for a body in a generated farfield without any size source or wake sheet, including those of a mesh family. Only the growth of tetrahedra then
 /// resolves its wake. Returns false for tunnels, for bodies with engines (which have inner flow as well), and for surfaces that are no body.
@@ -52,6 +53,7 @@ struct Schema<volmesh::BodyWake> {
                .help = "edge length at the far end of the wake",
                .automatic = "twice the size"},
       Field<O>{.name = "spread", .member = &O::spread, .min = 0.0, .max = 10.0, .help = "half of the wake's growth in height per distance along the wake"},
+      Field<O>{.name = "direction", .member = &O::direction, .help = "direction of the wake, of any length"},
   };
 };
 

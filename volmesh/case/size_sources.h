@@ -5,6 +5,7 @@
 #include <string_view>
 #include <vector>
 
+#include "geom/base/schema.h"
 #include "geom/base/vec3.h"
 
 namespace sterna::volmesh {
@@ -51,3 +52,31 @@ double volume_of(const SizeSource& source);
 double size_of(const SizeSource& source, const Vec3& p, double slope);
 
 }  // namespace sterna::volmesh
+
+namespace sterna {
+
+template <>
+struct Schema<volmesh::SizeSource> {
+  using O = volmesh::SizeSource;
+  static constexpr std::string_view stage = "source";
+  static constexpr std::array fields = {
+      Field<O>{.name = "kind", .member = enum_member<O, &O::kind>(), .help = "kind of the region", .choices = "point line box sphere cylinder wake samples"},
+      Field<O>{.name = "from", .member = &O::from, .unit = Unit::metre, .help = "the point, the first end or corner, or the centre"},
+      Field<O>{.name = "to", .member = &O::to, .unit = Unit::metre, .help = "the second end, or the opposite corner"},
+      Field<O>{.name = "direction", .member = &O::direction, .help = "direction of a wake, of any length"},
+      Field<O>{.name = "radius",
+               .member = &O::radius,
+               .unit = Unit::metre,
+               .min = 0.0,
+               .help = "distance from the point or line within which the edge length applies"},
+      Field<O>{.name = "length", .member = &O::length, .unit = Unit::metre, .min = 1e-12, .help = "length of the region along its direction", .required = true},
+      Field<O>{.name = "height", .member = &O::height, .unit = Unit::metre, .min = 0.0, .help = "thickness of the region at its start"},
+      Field<O>{.name = "spread", .member = &O::spread, .min = 0.0, .max = 10.0, .help = "growth of half the thickness per distance from the start"},
+      Field<O>{.name = "size", .member = &O::size, .unit = Unit::metre, .min = 1e-12, .help = "edge length inside the region", .required = true},
+      Field<O>{.name = "size_end", .member = &O::size_end, .unit = Unit::metre, .min = 0.0, .help = "edge length at the downstream end; 0: as size"},
+      Field<O>{.name = "points", .member = &O::points, .unit = Unit::metre, .help = "points with edge lengths of samples"},
+      Field<O>{.name = "sizes", .member = &O::sizes, .unit = Unit::metre, .min = 1e-12, .help = "edge lengths at the points"},
+  };
+};
+
+}  // namespace sterna

@@ -4,6 +4,7 @@
 #include <optional>
 #include <string>
 
+#include "geom/base/schema.h"
 #include "geom/base/vec3.h"
 
 namespace sterna::volmesh {
@@ -18,3 +19,36 @@ struct WakeSheet {
 };
 
 }  // namespace sterna::volmesh
+
+namespace sterna {
+
+template <>
+struct Schema<volmesh::WakeSheet> {
+  using O = volmesh::WakeSheet;
+  static constexpr std::string_view stage = "wake_sheet";
+  static constexpr std::array fields = {
+      Field<O>{.name = "wing", .member = &O::wing, .help = "pattern of names of the wing's patches; the sheet starts at their trailing edges"},
+      Field<O>{.name = "length",
+               .member = &O::length,
+               .min = 0.1,
+               .max = 20.0,
+               .help = "length of the sheet, in chords of the wing in front of it; larger values need more cells"},
+      Field<O>{.name = "growth",
+               .member = &O::growth,
+               .min = 1.0,
+               .max = 2.0,
+               .help = "largest ratio of successive edges along the sheet; larger values need fewer cells"},
+      Field<O>{.name = "height_growth",
+               .member = &O::height_growth,
+               .min = 1.0,
+               .max = 2.0,
+               .help = "largest ratio of first heights between successive rows along the sheet, which reduces the number of layers; 1: all layers continue to "
+                       "the end of the sheet"},
+      Field<O>{.name = "direction",
+               .member = &O::direction,
+               .help = "direction of the free stream, of any length, instead of alpha and beta",
+               .automatic = "along the inflow in a tunnel, otherwise along x"},
+  };
+};
+
+}  // namespace sterna

@@ -1,4 +1,4 @@
-// Bundles src/ and its libraries into one HTML file without network, src/workbench into another.
+// Bundles src/ and its libraries into one HTML file for use without network, and src/workbench into another.
 // usage: node build.mjs REPORT.html VIEW.html     (node_modules beside this file; CMake runs it in the build folder)
 import { build } from "esbuild";
 import { readFile, rename, writeFile } from "node:fs/promises";
@@ -8,9 +8,9 @@ import path from "node:path";
 const here = path.dirname(fileURLToPath(import.meta.url));
 const output = process.argv[2] ?? path.join(here, "report_page.html");
 const view_output = process.argv[3] ?? path.join(here, "view_page.html");
-const k_max_bytes = 2.5e6; // every report carries the page
+const k_max_bytes = 2.5e6; // every report contains the page
 
-/** The bundle's text of one entry file; licences of the libraries stay in it, at the end. */
+/** Returns the bundle of one entry file. The licences of the libraries are at its end. */
 async function bundle(entry) {
   const result = await build({
     absWorkingDir: here,
@@ -19,7 +19,7 @@ async function bundle(entry) {
     minify: true,
     write: false,
     format: "iife",
-    target: ["chrome111", "firefox113", "safari16.4"], // the first with DecompressionStream("gzip")
+    target: ["chrome111", "firefox113", "safari16.4"], // the first versions with DecompressionStream("gzip")
     charset: "ascii",
     legalComments: "eof",
     logLevel: "warning",
@@ -27,17 +27,17 @@ async function bundle(entry) {
   return result.outputFiles[0].text;
 }
 
-/** Text that can stand in a script or style element. */
+/** Returns text that is safe in a script or style element. */
 function inlined(text, element) {
   return text.replaceAll(new RegExp(`</${element}`, "gi"), `<\\/${element}`);
 }
 
-/** Bundles an entry and its style into the template, whose marks get `texts`; `markers` must each be in the page once. */
+/** Bundles an entry and its style into the template, and replaces the marks of the template by `texts`. Each of `markers` must be in the page exactly once. */
 async function make_page(output, folder, texts, markers) {
   let page = await readFile(path.join(here, "src/template.html"), "utf8");
   const script = inlined(await bundle(`${folder}/main.js`), "script");
   const style = inlined(await bundle(`${folder}/style.css`), "style");
-  // Functions, because "$&" in a replacement text would be a pattern. The bundle comes last: nothing is looked for in it.
+  // Functions are used because "$&" in a replacement string would be a pattern. The bundle is inserted last, so no mark is searched in it.
   for (const [mark, text] of Object.entries({ ...texts, STYLE: style, SCRIPT: script })) page = page.replace(`/*${mark}*/`, () => text);
   for (const marker of markers) {
     const n_found = page.split(marker).length - 1;

@@ -1,4 +1,4 @@
--- Pages of real meshes with all that a run knows: coverage, stages, options. args{} names the data's folder.
+-- Report pages of a real mesh with all data of a run: coverage, stages, options. The argument `data` is the folder of the data.
 local data = args{ data = "../../../build/release/test_data" }.data
 
 local half_f6 = half(read_surface{ data .. "/surfaces/clean/dlr_f6_184k.stl", unit = mm, split_angle = 40*deg })

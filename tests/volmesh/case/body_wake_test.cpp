@@ -34,7 +34,7 @@ TEST(FamilyWake, IsWallWakeWithoutOtherRefinement) {
   for (const MeshCase& mesh_case : {member(1.5), member(0.7), member(1.0, "on")}) {
     const std::vector<SizeSource> sources = sources_of(cube, mesh_case);
     ASSERT_EQ(sources.size(), 1U);
-    const SizeSource expected = wake_behind(cube, {}, {1.0, 0.0, 0.0});
+    const SizeSource expected = wake_behind(cube, {});
     EXPECT_EQ(sources.front().size, expected.size);
     EXPECT_EQ(sources.front().length, expected.length);
     EXPECT_EQ(refined(with_family_wake(cube, mesh_case, test::k_context)).sources.front().size, expected.size / mesh_case.family.refinement);

@@ -204,9 +204,9 @@ TEST(ActuatorDisc, SaysWhatIsWrongAndWhere) {
   EXPECT_EQ(add({{.name = "a", .center = {3, 0, 0}, .radius = 1.0}, {.name = "b", .center = {3, 0, 0}, .axis = {0, 1, 0}, .radius = 1.0}}).code,
             ErrorCode::self_intersection);
   EXPECT_THAT(add({{.name = "a", .center = {3, 0, 0}, .radius = 1.0}, {.name = "a", .center = {5, 0, 0}, .radius = 1.0}}).problem, HasSubstr("already"));
-  EXPECT_THAT(add({{.radius = -1.0}}).problem, HasSubstr("radius"));
-  EXPECT_THAT(add({{.radius = 1.0, .inner_radius = 1.0}}).problem, HasSubstr("inner radius"));
-  EXPECT_THAT(add({{.axis = {0, 0, 0}, .radius = 1.0}}).problem, HasSubstr("axis"));
+  EXPECT_THAT(add({{.center = {3, 0, 0}, .radius = -1.0}}).problem, HasSubstr("radius"));
+  EXPECT_THAT(add({{.center = {3, 0, 0}, .radius = 1.0, .inner_radius = 1.0}}).problem, HasSubstr("inner radius"));
+  EXPECT_THAT(add({{.center = {3, 0, 0}, .axis = {0, 0, 0}, .radius = 1.0}}).problem, HasSubstr("axis"));
 }
 
 TEST(ActuatorDisc, OneSidedTakesTheSecondSidesAway) {

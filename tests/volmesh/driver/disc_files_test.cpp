@@ -38,7 +38,7 @@ TEST(DiscFiles, FanInDuctAndPropellerOnNose) {
                     ///< 0.45 m thick
   };
   const RunContext context({.threads = 2});
-  for (const Case& c : {Case{"flowpanel_duct_duct_remeshed_refined.msh", {.name = "fan", .radius = 0.5}, 1e-4, 0.505, 0.003},
+  for (const Case& c : {Case{"flowpanel_duct_duct_remeshed_refined.msh", {.name = "fan", .center = {0.0, 0.0, 0.0}, .radius = 0.5}, 1e-4, 0.505, 0.003},
                         Case{"flowpanel_cessna_cessna.msh", {.name = "prop", .center = {-1.0, 0.0, 0.0}, .radius = 3.0}, 1e-3, 28.0, 0.2}}) {
     SCOPED_TRACE(c.file);
     const TriMesh wall = surfmesh::stitch_surface({io::read_surface_file(test::shared_data() / "surfaces" / "clean" / c.file, context)}, {}, context).mesh;

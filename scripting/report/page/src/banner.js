@@ -1,14 +1,14 @@
-// The line at the top: what was meshed, the verdict, and the figures that everybody asks for first.
+// The line at the top: input, verdict, and the most important quantities.
 import { count_text, h } from "./dom.js";
 
 const k_state_colours = { pass: [63, 148, 98], warn: [214, 150, 40], fail: [204, 64, 52], invalid: [150, 20, 70], "not checked": [128, 132, 140] };
 
-/** [r, g, b] of a state ("pass", "warn", "fail", "FAIL", "invalid", "INVALID", ...). */
+/** Returns [r, g, b] of a state ("pass", "warn", "fail", "FAIL", "invalid", "INVALID", ...). */
 export function state_colour(state) {
   return k_state_colours[String(state).toLowerCase()] ?? k_state_colours["not checked"];
 }
 
-/** Class of a state for style sheets: "pass", "warn", "fail", "invalid", "unknown". Of several ("FAIL: G6 G7; warn: G5", "pass, 3 forced") the first, which is the worst. */
+/** Returns the style class of a state: "pass", "warn", "fail", "invalid", "unknown". If there are several states ("FAIL: G6 G7; warn: G5", "pass, 3 forced"), the first state counts, which is the worst. */
 export function state_class(state) {
   const name = String(state).toLowerCase().split(/[:;,]/)[0].split(" at ")[0];
   if (name === "valid") return "pass";

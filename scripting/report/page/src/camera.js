@@ -1,14 +1,14 @@
-// The camera: a target, a distance and an orientation. Turns without end in every direction (no lock at the poles), zooms to the pointer, flies.
+// The camera: a target, a distance and an orientation. It turns without limit in every direction (also across the poles), zooms to the pointer, and flies.
 import { Matrix4, Quaternion, Vector3 } from "three";
 
-const k_field_of_view = 30; // degrees, of the height of the picture: little perspective, as in engineers' viewers
+const k_field_of_view = 30; // degrees, over the height of the picture: little perspective, as in engineering software
 const k_turn_per_pixel = 0.008; // radians
 const k_zoom_per_notch = 1.0015; // factor per unit of a wheel's delta
 const k_flight = 650; // ms
-const k_filled = 0.9; // share of the picture that is filled when all is fitted in
-const k_near_share = 1e-3; // of the distance to the target: nearer than that nothing is drawn
+const k_filled = 0.9; // share of the picture that is filled after fitting
+const k_near_share = 1e-3; // relative to the distance to the target: nearer objects are not drawn
 
-/** Orientation of a camera that looks along `direction` with `up` upwards. */
+/** Returns the orientation of a camera that looks along `direction` with `up` upwards. */
 export function looking(direction, up) {
   const back = direction.clone().normalize().negate();
   let right = up.clone().cross(back);
@@ -17,7 +17,7 @@ export function looking(direction, up) {
   return new Quaternion().setFromRotationMatrix(new Matrix4().makeBasis(right, back.clone().cross(right), back));
 }
 
-/** Directions of view by name: [along, up]. x aft, y to the right wing, z up. */
+/** Directions of view by name: [along, up]. x points aft, y to the right wing, z up. */
 export const k_views = {
   iso: [[1, 1, -0.75], [0, 0, 1]],
   front: [[1, 0, 0], [0, 0, 1]],
@@ -28,7 +28,7 @@ export const k_views = {
 };
 
 export class Camera {
-  /** camera: three's; element: where pointers move; changed(by_hand): called when the picture is another one. */
+  /** camera: camera of three.js; element: receives the pointer events; changed(by_hand): called if the picture changes. */
   constructor(camera, element, changed) {
     this.camera = camera;
     this.element = element;
@@ -41,23 +41,23 @@ export class Camera {
     this.limits = { least: 1e-9, greatest: 1e9 };
     this.flight = null;
     this.pointers = new Map();
-    this.height = 1; // of the picture, pixels of the page
-    this.n_pictures = 1; // side by side, all from this camera
+    this.height = 1; // height of the picture, pixels of the page
+    this.n_pictures = 1; // number of pictures side by side, all from this camera
     this.listen();
   }
 
-  /** The distance from which a sphere fills the picture. */
+  /** Returns the distance from which a sphere fills the picture. */
   distance_for(radius) {
     const half = Math.atan(Math.tan(((k_field_of_view / 2) * Math.PI) / 180) * Math.min(1, this.camera.aspect));
     return radius / Math.sin(half);
   }
 
-  /** Target and distance from which all of the points (xyz, ...) are in the picture, seen with that orientation. */
+  /** Returns target and distance from which all points (xyz, ...) are in the picture, for this orientation. */
   framing(points, orientation) {
     const inverse = orientation.clone().invert();
     const slope_y = Math.tan(((k_field_of_view / 2) * Math.PI) / 180) * k_filled, slope_x = slope_y * this.camera.aspect;
     const v = new Vector3();
-    // Each point bounds the camera by four planes; extremes of x - s z and so on are all that counts.
+    // Each point bounds the camera by four planes, so only extremes of x - s z and so on are needed.
     const most = { left: -Infinity, right: -Infinity, down: -Infinity, up: -Infinity, near: -Infinity, far: Infinity };
     for (let k = 0; k < points.length; k += 3) {
       v.set(points[k], points[k + 1], points[k + 2]).applyQuaternion(inverse);
@@ -70,11 +70,11 @@ export class Camera {
     }
     const z = Math.max((most.right + most.left) / (2 * slope_x), (most.up + most.down) / (2 * slope_y), most.near);
     const camera = new Vector3((most.right - most.left) / 2, (most.up - most.down) / 2, z);
-    const depth = Math.max(z - (most.near + most.far) / 2, 1e-12); // the target is in the middle of what is framed, whatever else the scene holds
+    const depth = Math.max(z - (most.near + most.far) / 2, 1e-12); // the target is in the middle of the framed points, independent of other objects in the scene
     return { target: camera.clone().sub(new Vector3(0, 0, depth)).applyQuaternion(orientation), distance: depth };
   }
 
-  /** Metres at the target that a pixel shows. */
+  /** Returns the metres at the target that a pixel shows. */
   pixel_size() {
     return (2 * this.distance * Math.tan(((k_field_of_view / 2) * Math.PI) / 180)) / this.height;
   }
@@ -90,7 +90,7 @@ export class Camera {
     camera.updateMatrixWorld();
   }
 
-  /** Goes there: at once, or in a flight when `is_smooth`. Parts that are left out stay. */
+  /** Moves the camera: immediately, or in a flight if `is_smooth`. Omitted parts are not changed. */
   go({ target = this.target, distance = this.distance, orientation = this.orientation }, is_smooth = true) {
     this.flight = null;
     const to = { target: target.clone(), distance: this.bounded(distance), orientation: orientation.clone() };
@@ -109,14 +109,14 @@ export class Camera {
     return Math.min(Math.max(distance, this.limits.least), this.limits.greatest);
   }
 
-  /** One step of the flight at time now; false when there is none. */
+  /** Makes one step of the flight at time now; returns false if there is no flight. */
   step(now) {
     if (!this.flight) return false;
     const { from, to, start } = this.flight;
     const share = Math.min(Math.max((now - start) / k_flight, 0), 1);
     const s = share * share * (3 - 2 * share);
     this.distance = from.distance * (to.distance / from.distance) ** s;
-    // The target moves with the zoom, so that what is flown to stays in the picture.
+    // The target moves with the zoom, so that the destination stays in the picture.
     const ratio = to.distance / from.distance;
     const along = Math.abs(Math.log(ratio)) < 1e-3 ? s : (1 - ratio ** s) / (1 - ratio);
     this.target.copy(from.target).lerp(to.target, along);
@@ -128,7 +128,7 @@ export class Camera {
     return true;
   }
 
-  /** Turns: dx about the world's vertical axis, dy about the picture's horizontal one. Beyond a pole the world is upside down, and dx turns the way the hand goes. */
+  /** Turns the camera: dx about the vertical axis of the world, dy about the horizontal axis of the picture. Beyond a pole the world is upside down, and dx follows the movement of the pointer. */
   turn(dx, dy) {
     const up = new Vector3(0, 1, 0).applyQuaternion(this.orientation);
     const vertical = new Quaternion().setFromAxisAngle(new Vector3(0, 0, up.z < 0 ? -1 : 1), -dx * k_turn_per_pixel);
@@ -148,7 +148,7 @@ export class Camera {
     this.by_hand();
   }
 
-  /** Zooms by a factor of the distance; x, y: pixels from the middle of the picture that stay where they are. */
+  /** Multiplies the distance by a factor. x, y: position in pixels from the middle of the picture, which stays unchanged. */
   zoom(factor, x = 0, y = 0) {
     const before = this.pixel_size();
     this.distance = this.bounded(this.distance * factor);
@@ -202,7 +202,7 @@ export class Camera {
   }
 
   key(event) {
-    const step = 24; // pixels that a key stands for
+    const step = 24; // pixels that correspond to one key press
     const moves = { ArrowLeft: [-step, 0], ArrowRight: [step, 0], ArrowUp: [0, -step], ArrowDown: [0, step] };
     if (moves[event.key]) (event.shiftKey ? this.pan : this.turn).call(this, ...moves[event.key]);
     else if (event.key === "+" || event.key === "=") this.zoom(1 / 1.2);

@@ -1,8 +1,8 @@
-// Chart.js with what the page uses of it, and lines of limits.
+// Chart.js with the components that the page uses, and lines of limits.
 import { Chart, Filler, Legend, LinearScale, LineController, LineElement, LogarithmicScale, PointElement, ScatterController, Tooltip } from "chart.js";
 import { css_colour, number_text } from "./dom.js";
 
-/** Vertical lines with names: options.plugins.limit_lines = [{value, name, colour}]. */
+/** Draws vertical lines with names: options.plugins.limit_lines = [{value, name, colour}]. */
 const limit_lines = {
   id: "limit_lines",
   afterDatasetsDraw(chart, _, options) {
@@ -24,7 +24,7 @@ const limit_lines = {
       ctx.textAlign = is_left ? "right" : "left";
       const width = ctx.measureText(name).width, at = x + (is_left ? -5 : 5), line = area.top + 10 + 14 * k;
       ctx.save();
-      ctx.globalAlpha = 0.8; // over the bars
+      ctx.globalAlpha = 0.8; // drawn over the bars
       ctx.fillStyle = css_colour("--panel");
       ctx.fillRect(is_left ? at - width - 2 : at - 2, line - 10, width + 4, 13);
       ctx.restore();
@@ -39,7 +39,7 @@ Chart.defaults.animation = false;
 Chart.defaults.font.family = "system-ui, sans-serif";
 Chart.defaults.font.size = 11;
 
-/** Axis options in the colours of the page. On a log axis only decades have numbers. */
+/** Returns axis options with the colours of the page. A logarithmic axis has numbers at decades only. */
 export function axis(title, is_log, more = {}) {
   const text = css_colour("--text_soft"), grid = css_colour("--grid");
   return {
@@ -52,7 +52,7 @@ export function axis(title, is_log, more = {}) {
   };
 }
 
-/** Calls again when the browser changes between light and dark. */
+/** Calls a function again if the browser changes between light and dark mode. */
 export function on_scheme_change(call) {
   matchMedia("(prefers-color-scheme: dark)").addEventListener("change", call);
 }

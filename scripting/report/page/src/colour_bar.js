@@ -1,19 +1,19 @@
-// The legend of a colouring: bar with round marks, limits and a patch of grey for values that do not exist; or a list of colours.
+// The legend of a colouring: a bar with round tick values, limits, and a grey area for missing values; or a list of colours.
 import { css_rgb, has_limits, k_nan_colour, map_colour } from "./colours.js";
 import { h, number_text } from "./dom.js";
 
 const k_stops = 33;
-const k_near_end = 0.06; // of the bar: half of a label
+const k_near_end = 0.06; // relative to the bar: half of a label
 const k_limit_names = ["hard", "target", "usual"];
-const k_label = 0.2; // of the bar: a label with its surroundings
-const k_row = 14; // pixels, of a row of labels
+const k_label = 0.2; // relative to the bar: a label with its margins
+const k_row = 14; // pixels, height of a row of labels
 
-/** Class of a label at t: those near the ends are written inwards. */
+/** Returns the class of a label at position t. Labels near the ends are aligned inwards. */
 function end_class(t) {
   return t < k_near_end ? "at_low" : t > 1 - k_near_end ? "at_high" : null;
 }
 
-/** The bar of a field. */
+/** Returns the colour bar of a field. */
 export function colour_bar(field, scale, map_name, has_nan) {
   const stops = Array.from({ length: k_stops }, (_, k) => css_rgb(map_colour(map_name, k / (k_stops - 1))));
   const unit = field.unit ? ` [${field.unit}]` : "";
@@ -22,7 +22,7 @@ export function colour_bar(field, scale, map_name, has_nan) {
   for (const value of scale.ticks()) ticks.append(h("span", { class: end_class(scale.t(value)), style: { left: `${(100 * scale.t(value)).toFixed(2)}%` } }, number_text(value, 3)));
   const limits = h("div.bar_limits");
   const list = has_limits(field.limits) ? k_limit_names.filter((name) => typeof field.limits[name] === "number").map((name) => ({ name, value: field.limits[name], t: scale.t(field.limits[name]) })) : [];
-  const row_ends = []; // share of the bar to which each row of labels is taken
+  const row_ends = []; // position on the bar up to which each row of labels is occupied
   for (const { name, value, t } of list.sort((a, b) => a.t - b.t)) {
     const at = Math.min(Math.max(t, 0), 1);
     const is_outside = at !== t;
@@ -44,7 +44,7 @@ export function colour_bar(field, scale, map_name, has_nan) {
   );
 }
 
-/** Colours with names and counts: [{name, colour: css, text}]. */
+/** Returns a list of colours with names and counts: [{name, colour: css, text}]. */
 export function colour_list(title, list) {
   return h("div.legend", null, h("div.legend_title", null, title), h("div.legend_list", null, list.map(({ name, colour, text }) => h("span", null, h("i", { style: { background: colour } }), name, text ? h("small", null, ` ${text}`) : null))));
 }

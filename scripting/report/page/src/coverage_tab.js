@@ -1,4 +1,4 @@
-// How much of each wall has the layer that was asked for, and why not the rest.
+// The share of each wall that has the requested layer, and the reasons of lower layers.
 import { h, number_text, percent_text } from "./dom.js";
 
 const k_parts = [["full", "full height"], ["reduced", "reduced"], ["compressed", "compressed"], ["collapsed", "collapsed"]];
@@ -12,7 +12,7 @@ function reasons(entry) {
   return list.length ? h("ul.reasons", null, list.map(([reason, share]) => h("li", null, h("span", null, percent_text(share)), ` ${reason === "none" ? "no reason recorded" : reason}`))) : null;
 }
 
-/** All patches together, weighted by area. */
+/** Returns the coverage of all patches together, weighted by area. */
 function together(list) {
   const area = list.reduce((sum, entry) => sum + entry.area, 0);
   const total = { patch: "all walls", area };

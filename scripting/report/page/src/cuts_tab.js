@@ -1,4 +1,4 @@
-// Cut planes: choose one, what is shown around it, how its cells are coloured.
+// Cut planes: selection of a cut, display of the surface around it, and colours of its cells.
 import { button, count_text, fill, h, position_text } from "./dom.js";
 import { check_of, select_of } from "./surface_tab.js";
 

@@ -1,4 +1,4 @@
-// The report as it stands in the page: JSON, and one gzipped blob of arrays that the JSON points into. See notes in docs/report.md.
+// The report data in the page: JSON, and one gzipped block of arrays to which the JSON refers. See docs/report.md.
 import { ReportError } from "./errors.js";
 
 const k_types = { f32: Float32Array, u32: Uint32Array, u16: Uint16Array, u8: Uint8Array };
@@ -9,10 +9,10 @@ function text_of(id) {
   return element.textContent.trim();
 }
 
-/** The JSON of the page. \throws ReportError */
+/** Returns the JSON of the page. \throws ReportError */
 export function read_json() {
   const text = text_of("sterna-json");
-  // The marker itself must not stand in the bundle.
+  // The bundle must not contain the marker itself.
   if (text === "" || text.startsWith("<" + "!--STERNA")) throw new ReportError("This file is the empty template of a report without a mesh. The verb report{} of sterna writes reports.");
   let json;
   try {
@@ -32,7 +32,7 @@ function bytes_of_base64(text) {
   return bytes;
 }
 
-/** The blob, unpacked; empty when the page has none. The element's text is freed. \throws ReportError */
+/** Returns the unpacked block; empty if the page has none. The text of the element is released. \throws ReportError */
 export async function read_blob() {
   const text = text_of("sterna-blob");
   document.getElementById("sterna-blob").textContent = "";
@@ -41,12 +41,12 @@ export async function read_blob() {
   try {
     const stream = new Blob([bytes_of_base64(text)]).stream().pipeThrough(new DecompressionStream("gzip"));
     return await new Response(stream).arrayBuffer();
-  } catch { // browsers call it "Failed to fetch", which it is not
+  } catch { // browsers report "Failed to fetch", which is misleading
     throw new ReportError("The report is damaged: its arrays cannot be unpacked. Was the file cut off? Write it again.");
   }
 }
 
-/** Reads arrays of the blob, checked. `what` names the array in messages. */
+/** Reads and checks arrays of the block. `what` names the array in messages. */
 export class Arrays {
   constructor(buffer) {
     this.buffer = buffer;
@@ -75,7 +75,7 @@ function fields_of(list, n, arrays, what) {
   }));
 }
 
-/** The surface with its arrays, indices checked. \throws ReportError */
+/** Returns the surface with its arrays; indices are checked. \throws ReportError */
 export function read_surface(report, arrays) {
   const surface = report.surface;
   const triangles = arrays.read(surface.triangles, "the list of triangles", { type: "u32" });
@@ -90,7 +90,7 @@ export function read_surface(report, arrays) {
   return { ...surface, n, points, triangles, patch, edges, fields: fields_of(surface.fields, n, arrays, "the surface") };
 }
 
-/** A cut with its arrays, checked. \throws ReportError */
+/** Returns a cut with its arrays, which are checked. \throws ReportError */
 export function read_cut(cut, arrays) {
   const what = `the cut "${cut.name}"`;
   const points = arrays.read(cut.points, `points of ${what}`, { type: "f32" });
@@ -102,7 +102,7 @@ export function read_cut(cut, arrays) {
   return { ...cut, n, points, first, kind, base: cut.base ?? null, fields: fields_of(cut.fields, n, arrays, what) };
 }
 
-/** \throws ReportError when a table that the page needs is absent. */
+/** \throws ReportError if a required table is missing. */
 export function require_tables(report, names) {
   for (const name of names) if (!Array.isArray(report[name])) throw new ReportError(`The report is damaged: its table "${name}" is missing.`);
 }

@@ -1,6 +1,6 @@
-// Elements and numbers. Texts always go through text nodes, so that no name of a patch or file can be markup.
+// Elements and numbers. All texts are text nodes, so that names of patches or files cannot be interpreted as markup.
 
-/** An element: h("button.primary", {onclick, title}, "text", child, ...). Attributes that are false, null or undefined are left out. */
+/** Returns an element: h("button.primary", {onclick, title}, "text", child, ...). Attributes that are false, null or undefined are omitted. */
 export function h(kind, attributes, ...children) {
   const [tag, ...classes] = kind.split(".");
   const element = document.createElement(tag || "div");
@@ -19,27 +19,27 @@ export function append(element, children) {
   for (const child of children.flat(Infinity)) if (child !== null && child !== undefined && child !== false) element.append(child);
 }
 
-/** Puts children in the place of all that the element holds. */
+/** Replaces the content of the element by these children. */
 export function fill(element, ...children) {
   element.replaceChildren();
   append(element, children);
   return element;
 }
 
-/** A button; `pressed` (true or false) makes it a toggle. */
+/** Returns a button; `pressed` (true or false) makes it a toggle button. */
 export function button(label, onclick, { title, pressed, kind = "", id } = {}) {
   return h(`button${kind}`, { type: "button", onclick, title, id, "aria-pressed": pressed === undefined ? null : String(pressed) }, label);
 }
 
 const k_thin_space = "\u2009";
 
-/** "12 345" of a whole number. */
+/** Returns a whole number as "12 345". */
 export function count_text(n) {
   if (!Number.isFinite(n)) return "\u2013";
   return Math.round(n).toString().replace(/\B(?=(\d{3})+(?!\d))/g, k_thin_space);
 }
 
-/** Four significant digits, as in sterna's own texts; a dash for what does not exist. */
+/** Returns a number with four significant digits, as in messages of sterna; a dash for a missing value. */
 export function number_text(x, digits = 4) {
   if (typeof x !== "number" || !Number.isFinite(x)) return "\u2013";
   if (x === 0) return "0";
@@ -49,13 +49,13 @@ export function number_text(x, digits = 4) {
   return text.replace(/^-/, "\u2212");
 }
 
-/** Number of a measure with its unit. */
+/** Returns the value of a measure with its unit. */
 export function quantity_text(x, unit, digits = 4) {
   const text = Number.isFinite(x) && Math.abs(x) >= 1e6 ? x.toExponential(digits - 1).replace(/\.?0+e/, "e").replace("e+", "e").replace(/^-/, "\u2212") : number_text(x, digits);
   return unit && text !== "\u2013" ? `${text} ${unit}` : text;
 }
 
-/** Share as percent; what is not quite 100 % is not called 100. */
+/** Returns a share as percent; a share below 1 is never displayed as 100 %. */
 export function percent_text(share) {
   if (typeof share !== "number" || !Number.isFinite(share)) return "\u2013";
   const text = (100 * share).toFixed(2);
@@ -88,7 +88,7 @@ export function bytes_text(bytes) {
   return `${k === 0 ? bytes : Number(bytes.toPrecision(3))} ${units[k]}`;
 }
 
-/** The colour that a CSS variable of the page has now. */
+/** Returns the present colour of a CSS variable of the page. */
 export function css_colour(name) {
   return getComputedStyle(document.documentElement).getPropertyValue(name).trim();
 }

@@ -1,9 +1,9 @@
-// What can be wrong with a report, in one sentence that the page shows.
+// Errors of a report, as sentences that the page shows.
 
-/** An error whose message is meant for the reader of the page. */
+/** An error with a message for the user of the page. */
 export class ReportError extends Error {}
 
-/** The sentence for any error. */
+/** Returns the sentence for an error. */
 export function sentence_of(error) {
   if (error instanceof ReportError) return error.message;
   return `The page failed: ${error?.message ?? error}. Please report this with the file.`;

@@ -4,10 +4,10 @@ import { count_text, css_colour, h, number_text } from "./dom.js";
 import { k_states, state_of } from "./colours.js";
 import { check_of } from "./surface_tab.js";
 
-const k_empty = 0.5; // what an empty class shows on a logarithmic axis: below one
+const k_empty = 0.5; // height of an empty class on a logarithmic axis: below one
 const k_limit_colours = { hard: "--fail", target: "--warn", usual: "--pass" };
 
-/** A sentence when the histogram cannot be drawn, else "". */
+/** Returns a sentence if the histogram cannot be drawn, else "". */
 function trouble_of({ edges, counts }) {
   if (!Array.isArray(edges) || !Array.isArray(counts) || edges.length !== counts.length + 1 || counts.length === 0) return "This histogram is damaged: it needs one more edge than counts.";
   if (!edges.every((edge, k) => Number.isFinite(edge) && (k === 0 || edge > edges[k - 1]))) return "This histogram is damaged: its edges do not increase.";
@@ -28,7 +28,7 @@ function config_of(histogram, is_log_count) {
     return state === 0 ? css_colour("--series") : k_states[state].colour;
   };
   const lines = Object.keys(k_limit_colours).filter((name) => typeof limits[name] === "number").map((name) => ({ value: limits[name], name: `${name} ${number_text(limits[name], 3)}`, colour: css_colour(k_limit_colours[name]) }));
-  // Limits just outside of the values are shown, far ones would press the values together.
+  // Limits close to the values are shown; distant limits would compress the values.
   const low = edges[0], high = edges[edges.length - 1];
   const span = is_log ? high / low : high - low;
   const near = lines.map((line) => line.value).filter((v) => (is_log ? v > 0 && v > low / Math.max(span, 10) && v < high * Math.max(span, 10) : v > low - span && v < high + span));
@@ -76,7 +76,7 @@ export function histograms_tab(app) {
       entry.chart = new Chart(entry.canvas, config_of(entry.histogram, is_log_count));
     }
   };
-  setTimeout(draw); // the canvases need their place in the page first
+  setTimeout(draw); // a canvas must be part of the page before it is drawn
   on_scheme_change(draw);
   app.show_histogram = (measure) => setTimeout(() => {
     const figure = document.getElementById(`histogram_${measure}`);

@@ -1,4 +1,4 @@
-// Entry: reads what the page holds and opens the page for its schema.
+// Entry point: reads the data of the page and opens the app of its schema.
 import { read_json } from "./data.js";
 import { ReportError } from "./errors.js";
 import { ReportApp } from "./report.js";

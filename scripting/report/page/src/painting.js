@@ -1,15 +1,15 @@
-// Which colours the surface and the cut have, and their legends.
+// The colours of the surface and of the cut, and their legends.
 import { k_kinds, k_nan_tone, k_states, css_rgb, field_palette, list_palette, patch_colour, range_of, rgb_of, Scale, state_tones, tones_of } from "./colours.js";
 import { colour_bar, colour_list } from "./colour_bar.js";
 import { count_text } from "./dom.js";
 
-/** The range of a field: the report's where it can be drawn, else that of its values; null when no value exists. */
+/** Returns the range of a field: the range of the report if it can be drawn, else that of the values; null if there are no values. */
 export function field_range(field) {
   const is_usable = Number.isFinite(field.min) && Number.isFinite(field.max) && field.min <= field.max && (!field.is_log || field.min > 0);
   return is_usable ? [field.min, field.max] : range_of(field.values, field.is_log);
 }
 
-/** Values of a surface's field in the patches that are shown, those that can be drawn. */
+/** Returns the values of a surface field in the visible patches that can be drawn. */
 export function shown_values(field, patch, shown) {
   const values = new Float32Array(field.values.length);
   let n = 0;
@@ -20,9 +20,9 @@ export function shown_values(field, patch, shown) {
   return values.subarray(0, n);
 }
 
-const k_most = 0.01; // share of the values that is left out at either end
+const k_most = 0.01; // share of the values that is excluded at each end
 
-/** Range without the outliers at either end; null when there is nothing to draw. */
+/** Returns the range without outliers at both ends; null if there are no values. */
 export function range_of_most(values) {
   if (!values.length) return null;
   const sorted = values.slice().sort();
@@ -30,7 +30,7 @@ export function range_of_most(values) {
   return at(k_most) < at(1 - k_most) ? [at(k_most), at(1 - k_most)] : null;
 }
 
-/** A painting by a field: {tones, palette, legend, scale}. `by_limits`: the four states instead of the map; range null: the field's own. */
+/** Returns the painting by a field: {tones, palette, legend, scale}. `by_limits`: the four states instead of the colour map; range null: the range of the field. */
 export function paint_field(field, { range, map, by_limits }) {
   if (by_limits) {
     const tones = state_tones(field);
@@ -49,9 +49,9 @@ export function paint_patches(surface, patches) {
   return { tones: surface.patch, palette: list_palette(patches.map((_, k) => patch_colour(k))), legend: null, scale: null };
 }
 
-const k_most_named = 10; // patches: more would cover the picture
+const k_most_named = 10; // number of patches in the legend: more would cover the picture
 
-/** Names of the patches that are shown; null when there are too many. */
+/** Returns the names of the visible patches; null if there are too many. */
 export function patches_legend(patches, shown) {
   const list = patches.map((patch, k) => ({ name: patch.name, colour: patch_css(k) })).filter((_, k) => shown.has(k) && patches[k].triangles > 0);
   return list.length && list.length <= k_most_named ? colour_list("Patches", list) : null;

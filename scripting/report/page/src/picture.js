@@ -1,6 +1,6 @@
-// The view as a picture to keep: the drawing with the legends, scale bar, axes and pin over it, as they are on the page.
+// The view as a picture file: the drawing with legends, scale bar, axes and pin, as in the page.
 
-/** Colours of a CSS gradient in order. */
+/** Returns the colours of a CSS gradient in order. */
 function stops_of(background) {
   return background.match(/rgba?\([^)]*\)/g) ?? [];
 }
@@ -41,7 +41,7 @@ function draw_text(context, node, place) {
   context.fillStyle = style.color;
   context.textBaseline = "middle";
   const lines = [...range.getClientRects()];
-  // A text of several lines is rare here (a long name); all of it goes into its first line.
+  // Texts of several lines (long names) are rare here; the whole text is drawn in the first line.
   if (lines.length && node.textContent.trim()) {
     const box = place(lines[0]);
     context.fillText(node.textContent.trim(), box.x, box.y + box.height / 2);
@@ -81,7 +81,7 @@ function draw_element(context, element, place) {
   }
 }
 
-/** Promise of the PNG (a Blob) of the drawing in `canvas` with these elements over it, at the canvas' resolution. */
+/** Returns a promise of a PNG (a Blob) of the drawing in `canvas` with these elements over it, at the resolution of the canvas. */
 export function picture_with(canvas, elements) {
   const whole = canvas.getBoundingClientRect();
   const result = document.createElement("canvas");

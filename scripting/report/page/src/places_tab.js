@@ -1,9 +1,9 @@
-// The worst places of every gate.
+// The worst locations of every gate.
 import { chip, state_class } from "./banner.js";
 import { button, h, number_text, position_text, quantity_text } from "./dom.js";
 import { check_of, select_of } from "./surface_tab.js";
 
-/** "3.1 deg, limit 5 deg" of a place; what was violated where there is no value. */
+/** Returns "3.1 deg, limit 5 deg" for a location, or the violation if there is no value. */
 export function value_text(place) {
   if (typeof place.value !== "number") return place.title;
   const limit = typeof place.limit === "number" ? `, limit ${quantity_text(place.limit, place.unit)}` : "";
@@ -18,7 +18,7 @@ export function place_text(place) {
   return typeof place.value === "number" ? `${value_text(place)} \u00b7 ${place.what}` : place.what;
 }
 
-/** Groups of places in the order of the report: by gate and measure; what the given surface forces apart. */
+/** Returns groups of locations in the order of the report: by gate and measure, with locations that the input surface forces in separate groups. */
 function groups_of(places) {
   const groups = new Map();
   places.forEach((place, k) => {

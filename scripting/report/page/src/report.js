@@ -1,4 +1,4 @@
-// The page of one mesh: view at the left, panel with tabs at the right.
+// The page of one mesh: the view on the left, a panel with tabs on the right.
 import { Sphere, Vector3 } from "three";
 import { k_kinds, k_maps, has_limits, range_of } from "./colours.js";
 import { Arrays, read_blob, read_cut, read_surface, require_tables } from "./data.js";
@@ -19,7 +19,7 @@ import { cut_set, box_of, surface_set } from "./triangles.js";
 import { k_views } from "./camera.js";
 import { View } from "./view.js";
 
-const k_most_framed = 30000; // points: enough to frame any body
+const k_most_framed = 30000; // number of points, which is enough to frame any body
 const k_view_titles = { iso: "Iso", front: "Front", back: "Back", side: "Side", top: "Top", bottom: "Bottom" };
 
 export class ReportApp {
@@ -99,14 +99,14 @@ export class ReportApp {
     state.on(["tab"], ({ tab }) => this.tabs.show(tab));
     if (!this.tabs.has(state.get("tab"))) state.values.tab = "summary";
     try {
-      await this.load().finally(() => this.tabs.show(state.get("tab"))); // tabs ask for ranges of fields; without arrays they are shown, too
+      await this.load().finally(() => this.tabs.show(state.get("tab"))); // tabs use ranges of fields; they are shown without arrays as well
       this.open_view();
     } catch (error) {
       this.say(sentence_of(error));
       if (!(error instanceof ReportError)) throw error;
     }
     state.on(null, () => write_hash(() => this.hash_entries()));
-    window.addEventListener("hashchange", () => location.reload()); // a link to another place of the same page
+    window.addEventListener("hashchange", () => location.reload()); // a link to another location of the same page
   }
 
   async load() {
@@ -117,7 +117,7 @@ export class ReportApp {
     this.say("");
   }
 
-  /** The sentence over the picture; an empty one takes it away. */
+  /** Shows a sentence over the picture; an empty sentence removes it. */
   say(text) {
     this.message.textContent = text;
     this.message.hidden = !text;
@@ -135,7 +135,7 @@ export class ReportApp {
     return new Tabs(list, (name) => this.state.set({ tab: name }));
   }
 
-  // ---- the picture
+  // ---- picture
 
   open_view() {
     const { state } = this;
@@ -170,11 +170,11 @@ export class ReportApp {
     state.on(["edges", "cut_edges"], () => this.show_edges());
     state.on(["markers", "gate", "place"], () => this.show_markers());
     state.on(["place"], ({ place }) => place >= 0 && this.fly_to_place(place));
-    state.on(["place", "cut", "view"], () => this.show_info(null, true)); // what was clicked is no longer what one looks at
+    state.on(["place", "cut", "view"], () => this.show_info(null, true)); // the information about the clicked item is no longer relevant
     this.first_look();
   }
 
-  /** Where the link says: camera by hand, else the place, else the cut, else the named view. */
+  /** Moves the camera as the link specifies: the stored camera, else the location, else the cut, else the named view. */
   first_look() {
     const { values } = this.state;
     this.view.look_along(values.view, this.visible_points(), false);
@@ -199,7 +199,7 @@ export class ReportApp {
     return [...this.state.get("patches")].sort((a, b) => a - b).map((k) => this.set.ranges[k]);
   }
 
-  /** Points that bound what is shown: at most k_most_framed of the visible triangles' corners; those of the body's size when nothing is visible. */
+  /** Returns points that bound the visible objects: at most k_most_framed corners of visible triangles, or points of the body's size if nothing is visible. */
   visible_points() {
     const ranges = this.visible_ranges().filter(([from, to]) => to > from);
     const n = ranges.reduce((sum, [from, to]) => sum + 3 * (to - from), 0);
@@ -220,12 +220,12 @@ export class ReportApp {
     return this.surface?.fields.find((field) => field.name === name) ?? null;
   }
 
-  /** Range of a field in the patches that are shown (a farfield's edges of 100 m say nothing about a wing); of all when these have no values. */
+  /** Returns the range of a field in the visible patches, because a farfield with edges of 100 m is not relevant for a wing; in all patches if the visible patches have no values. */
   shown_range(field) {
     return range_of(shown_values(field, this.surface.patch, this.state.get("patches")), field.is_log) ?? field_range(field);
   }
 
-  /** That range without outliers. */
+  /** Returns this range without outliers. */
   range_of_most(field) {
     return range_of_most(shown_values(field, this.surface.patch, this.state.get("patches")));
   }
@@ -287,9 +287,9 @@ export class ReportApp {
     fill(this.legends, this.painted.cut?.legend, is_surface_shown ? (this.painted.surface?.legend ?? patches_legend(this.report.patches, this.state.get("patches"))) : null);
   }
 
-  // ---- places
+  // ---- locations
 
-  /** Indices of the places of the gate that is chosen. */
+  /** Returns the indices of the locations of the selected gate. */
   listed_places() {
     const gate = this.state.get("gate");
     return this.report.places.map((_, k) => k).filter((k) => !gate || this.report.places[k].gate === gate);
@@ -309,14 +309,14 @@ export class ReportApp {
     this.view.fly_to_place(this.report.places[k].at, this.report.length, ranges, is_smooth);
   }
 
-  /** To a place that no gate names. */
+  /** Flies to a location without a gate. */
   fly_to_point(at, is_smooth = true) {
     this.state.set({ camera: "", place: -1 });
     const ranges = this.set.ranges.filter((_, p) => this.report.patches[p].kind === "wall");
     this.view.fly_to_place(at, this.report.length, ranges, is_smooth);
   }
 
-  // ---- what is under the pointer
+  // ---- item under the pointer
 
   show_info(found, is_kept) {
     if (is_kept) this.kept = found;
@@ -369,12 +369,12 @@ export class ReportApp {
 
   async save_picture() {
     if (!this.view) return;
-    const address = URL.createObjectURL(await this.view.picture(this.legends.children)); // browsers refuse long data addresses
+    const address = URL.createObjectURL(await this.view.picture(this.legends.children)); // browsers reject long data addresses
     h("a", { href: address, download: `${this.report.title.replace(/[^\w.-]+/g, "_")}.png` }).click();
     setTimeout(() => URL.revokeObjectURL(address), 60000);
   }
 
-  /** What tests may ask: never changes anything. */
+  /** Returns the state of the page for tests; changes nothing. */
   test_state() {
     const { view, painted, state } = this;
     const values = { ...state.values, patches: [...state.values.patches] };

@@ -1,7 +1,7 @@
 // How the mesh was made: stages, memory, inputs, options.
 import { bytes_text, count_text, fill, h, number_text, percent_text, seconds_text } from "./dom.js";
 
-const k_most_entries = 50; // of a list of the manifest: longer ones are cut, with the number of the rest
+const k_most_entries = 50; // number of entries of a manifest list that are shown, followed by the number of the others
 
 function stages(run) {
   const total = run.seconds || run.stages.filter((stage) => !stage.depth).reduce((sum, stage) => sum + stage.seconds, 0) || 1;
@@ -19,7 +19,7 @@ function value_text(value) {
   return typeof value === "object" ? JSON.stringify(value) : String(value);
 }
 
-/** Names of options that differ from their defaults, by stage: {stage: Set}; null where the manifest does not tell. */
+/** Returns the names of options that differ from their defaults, by stage: {stage: Set}; null if the manifest has no defaults. */
 function changed_options(report) {
   const table = report.options_set ?? report.manifest?.options_set;
   return table ? new Map(Object.entries(table).map(([stage, names]) => [stage, new Set(names)])) : null;
@@ -47,7 +47,7 @@ function options(app) {
   return [h("h2", null, "Options", found), h("div.form", null, search, changed ? h("label.check", { for: "options_changed" }, only, h("span", null, "only options that differ from their defaults")) : null), body, h("p.note", null, "Lengths in metres, angles in radians.")];
 }
 
-/** Anything of the manifest as nested lists that open on demand. */
+/** Returns a value of the manifest as nested lists that can be opened. */
 function tree(name, value) {
   if (value === null || typeof value !== "object") return h("div.leaf", null, h("span", null, name), h("code", null, value_text(value)));
   const list = Object.entries(value);

@@ -1,4 +1,4 @@
-// The page of a series: table of the cases, one figure over a parameter, cases side by side.
+// The page of a series: a table of the cases, a chart of a quantity over a parameter, and cases side by side.
 import { require_tables } from "./data.js";
 import { fill, h } from "./dom.js";
 import { chip } from "./banner.js";
@@ -7,13 +7,13 @@ import { compare_section } from "./series_compare.js";
 import { chart_section } from "./series_chart.js";
 import { table_section } from "./series_table.js";
 
-/** Parameters may be anything that Lua can say; what is neither number nor text becomes text. */
+/** Returns a parameter as number or text; other Lua values become text. */
 function plain(value) {
   if (value === null || value === undefined || typeof value === "number" || typeof value === "string") return value;
   return typeof value === "object" ? JSON.stringify(value) : String(value);
 }
 
-/** Columns: {key, title, unit, kind: "parameter" | "figure" | "gate" | "word", of(case)}. */
+/** Returns the columns: {key, title, unit, kind: "parameter" | "figure" | "gate" | "word", of(case)}. */
 function columns_of(series) {
   const gates = [...new Set(series.cases.flatMap((entry) => Object.keys(entry.gates ?? {})))].sort((a, b) => a.localeCompare(b, "en", { numeric: true }));
   return [

@@ -1,4 +1,4 @@
-// Any figure over any parameter; another parameter makes lines.
+// A chart of any quantity over any parameter; a second parameter separates the lines.
 import { axis, Chart, on_scheme_change } from "./charts.js";
 import { css_colour, fill, h, number_text } from "./dom.js";
 import { select_of } from "./surface_tab.js";
@@ -6,8 +6,8 @@ import { select_of } from "./surface_tab.js";
 const k_line_colours = ["#3b78b5", "#d1762c", "#3f9a61", "#b8496b", "#7a63b5", "#8a7a2c", "#2f9aa0", "#a0583f"];
 
 /**
- * Lines of the chart: [{name, points: [{x, y, name, is_bad}]}]; cases without the figure or the parameter are left out.
- * A parameter that is a number in all cases is the axis; of any other the distinct values are, in order: then `labels` has them.
+ * Returns the lines of the chart: [{name, points: [{x, y, name, is_bad}]}], without cases that lack the quantity or the parameter.
+ * A parameter that is a number in all cases is the axis. For other parameters the axis has their distinct values in order, which are in `labels`.
  */
 export function lines_of(app) {
   const { figure, over, by } = app.state.values;
@@ -20,7 +20,7 @@ export function lines_of(app) {
   for (const entry of app.series.cases) {
     const value = parameter(over, entry), y = column?.of(entry);
     const x = labels ? labels.indexOf(String(value)) : value;
-    const is_gap = typeof y !== "number";  // a failed case: the line is interrupted there
+    const is_gap = typeof y !== "number";  // a failed case interrupts the line
     if (is_gap) ++n_left_out;
     if (typeof x !== "number" || (labels && x < 0)) {
       if (!is_gap) ++n_left_out;

@@ -1,9 +1,9 @@
-// Chosen cases side by side: pictures, parameters, figures and gates; what differs is marked.
+// Selected cases side by side: pictures, parameters, quantities and gates; differences are marked.
 import { chip } from "./banner.js";
 import { fill, h, number_text } from "./dom.js";
 import { select_of } from "./surface_tab.js";
 
-const k_same = 1e-9; // relative: the same number, written twice
+const k_same = 1e-9; // relative difference of values that are the same number
 
 function differs(values) {
   const [first, ...rest] = values;

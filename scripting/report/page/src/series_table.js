@@ -1,8 +1,8 @@
-// The cases as a table: sorted by any column, columns chosen, cases chosen for the comparison.
+// The cases as a table: sorted by any column, with a selection of columns and a selection of cases for the comparison.
 import { chip } from "./banner.js";
 import { button, fill, h, number_text } from "./dom.js";
 
-/** Numbers by size, words by the alphabet, what is missing last in either direction. */
+/** Compares values: numbers by size, words alphabetically, missing values last in both directions. */
 function compared(a, b, is_down) {
   const is_missing = (x) => x === null || x === undefined || x === "";
   if (is_missing(a) || is_missing(b)) return Number(is_missing(a)) - Number(is_missing(b));

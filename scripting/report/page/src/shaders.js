@@ -1,9 +1,9 @@
-// Programs of the graphics card: triangles with one tone each, their edges, picking, markers.
+// Shaders: triangles with one tone each, their edges, picking, markers.
 import { DataTexture, DoubleSide, GLSL3, NearestFilter, RGBAFormat, ShaderMaterial, UnsignedByteType } from "three";
 
 const k_palette_width = 256;
 
-/** A palette as a texture of rows of 256 colours. */
+/** Returns a palette as a texture with rows of 256 colours. */
 export function palette_texture(bytes) {
   const n = bytes.length / 4;
   const rows = Math.max(1, Math.ceil(n / k_palette_width));
@@ -16,7 +16,7 @@ export function palette_texture(bytes) {
   return texture;
 }
 
-// The depth is the logarithm of the distance, so that a boundary layer of 1e-6 m and a farfield of 1e3 m fit into one picture.
+// The depth is the logarithm of the distance, so that a boundary layer of 1e-6 m and a farfield of 1e3 m are correct in one picture.
 const k_depth = `gl_FragDepth = clamp(log2(v_w / near) / log2(far / near), 0.0, 1.0);`;
 
 const k_vertex = `
@@ -57,8 +57,8 @@ flat in uint v_edges;
 flat in uint v_id;
 `;
 
-// Shading keeps between 0.68 and 1, so that colours can still be compared with the bar. An edge fades where its triangles get thinner than a few pixels:
-// a dense mesh stays readable instead of turning black.
+// The shading stays between 0.68 and 1, so that colours remain comparable with the colour bar. Edges fade where triangles become thinner than a few pixels:
+// a dense mesh remains readable instead of black.
 const k_fragment = `${k_inputs}
 uniform sampler2D palette;
 uniform float shading;
@@ -80,7 +80,7 @@ void main() {
   if (v_clip > 0.0) discard;
   bool is_inside = outward != 0.0 && (v_edges & 8u) != 0u && gl_FrontFacing == (outward < 0.0);
   vec3 base = texelFetch(palette, ivec2(v_tone & 255u, v_tone >> 8), 0).rgb;
-  // Within the body, where a cut lets one look: duller, so that it is not taken for the outside or for cells.
+  // Inside the body, visible through a cut: duller colours, which distinguish it from the outside and from cells.
   if (is_inside) base = mix(base, vec3(0.42), 0.6);
   float size = length(normal);
   normal = size > 0.0 ? normal / size : vec3(0.0, 0.0, 1.0);
@@ -101,17 +101,17 @@ void main() {
   ${k_depth}
 }`;
 
-/** Uniforms that the drawing and the picking material of a set share. */
+/** Returns the uniforms that the drawing material and the picking material of a set share. */
 export function set_uniforms() {
   return {
     palette: { value: null },
-    clip: { value: [0, 0, 0, 1] }, // kept where dot(xyz, position) <= w
+    clip: { value: [0, 0, 0, 1] }, // points with dot(xyz, position) <= w are drawn
     near: { value: 1 },
     far: { value: 2 },
     shading: { value: 1 },
     edge_strength: { value: 0.55 },
-    fade_together: { value: 1 }, // 0: long edges of slender triangles stay (cells of a layer), 1: they fade with the short ones
-    outward: { value: 0 }, // sense in which walls have normals out of the body: 1, -1, 0 unknown
+    fade_together: { value: 1 }, // 0: long edges of slender triangles (cells of a layer) stay visible; 1: they fade with the short edges
+    outward: { value: 0 }, // orientation of the wall normals: 1 out of the body, -1 into the body, 0 unknown
     edge_colour: { value: [0.1, 0.12, 0.15] },
     id_offset: { value: 0 },
   };
@@ -125,7 +125,7 @@ export function pick_material(uniforms) {
   return new ShaderMaterial({ glslVersion: GLSL3, uniforms, vertexShader: k_vertex, fragmentShader: k_pick_fragment, side: DoubleSide });
 }
 
-/** Discs of constant size on the screen, seen through everything. */
+/** Discs of constant size on the screen, visible through all objects. */
 export function marker_material() {
   return new ShaderMaterial({
     glslVersion: GLSL3,

@@ -1,8 +1,8 @@
-// How every page starts: whatever goes wrong ends in a sentence on the page, never in a blank one.
+// Start of every page: any failure is reported by a sentence on the page, never by a blank page.
 import { fill, h } from "./dom.js";
 import { ReportError, sentence_of } from "./errors.js";
 
-/** `open()` gives the app: start(root) fills the page, test_state() tells what it shows, view is its picture where it has one. */
+/** `open()` returns the app: start(root) fills the page, test_state() returns its state, and view is its picture, if it has one. */
 export async function start_page(open) {
   const root = document.getElementById("app");
   const show_trouble = (error) => {
@@ -14,7 +14,7 @@ export async function start_page(open) {
   window.addEventListener("unhandledrejection", (event) => show_trouble(event.reason));
   try {
     const app = open();
-    // Read-only, for tests and for the curious.
+    // read-only, for tests and for interested users
     window.sterna = Object.freeze({ state: () => app.test_state(), pixels: () => app.view?.pixels() ?? null, times: () => ({ ...app.times }) });
     await app.start(root);
     document.body.dataset.ready = "true";

@@ -1,8 +1,8 @@
-// What the reader has chosen, kept in the address behind "#", so that a link opens at the same place.
+// The selections of the user, stored in the address after "#", so that a link restores them.
 
 const k_delay = 250; // ms: browsers limit how often an address may change
 
-/** Values by name with listeners; `set` tells those whose names changed. */
+/** Values by name with listeners; `set` notifies the listeners of the changed names. */
 export class State {
   constructor(values) {
     this.values = values;
@@ -20,13 +20,13 @@ export class State {
     for (const { names, call } of this.listeners) if (names === null || changed.some((name) => names.includes(name))) call(this.values);
   }
 
-  /** Calls after changes of these names (null: of any). */
+  /** Registers a listener for changes of these names (null: of all names). */
   on(names, call) {
     this.listeners.push({ names, call });
   }
 }
 
-/** The entries behind "#" as an object of texts. */
+/** Returns the entries after "#" as an object of strings. */
 export function read_hash() {
   const entries = {};
   for (const part of location.hash.replace(/^#/, "").split("&")) {
@@ -35,7 +35,7 @@ export function read_hash() {
     try {
       entries[decodeURIComponent(part.slice(0, at))] = decodeURIComponent(part.slice(at + 1));
     } catch {
-      // A damaged escape: that entry is left out, the page opens as without it.
+      // An entry with a damaged escape sequence is ignored.
     }
   }
   return entries;
@@ -43,7 +43,7 @@ export function read_hash() {
 
 let waiting = 0;
 
-/** Writes the entries behind "#" soon; null and undefined are left out. */
+/** Writes the entries after "#" with a delay; null and undefined are omitted. */
 export function write_hash(entries_now) {
   clearTimeout(waiting);
   waiting = setTimeout(() => {

@@ -1,4 +1,4 @@
-// Facts and gates: what was found, against which limits.
+// Facts and gates: the results and their limits.
 import { chip } from "./banner.js";
 import { button, count_text, h, number_text, percent_text, quantity_text } from "./dom.js";
 
@@ -7,7 +7,7 @@ function limits_text(gate) {
   return ["hard", "target", "usual"].filter((name) => typeof gate.limits?.[name] === "number").map((name) => h("span.limit", null, h("small", null, name), ` ${sign} ${number_text(gate.limits[name])}`));
 }
 
-/** Where the worst value lies between "good" and the hard limit is not to be told in general; shares are. */
+/** A position between a good value and the hard limit has no general definition, so the bar shows shares. */
 function share_bar(share) {
   return h("span.share", { title: `${percent_text(share)} within` }, h("i", { style: { width: `${(100 * share).toFixed(2)}%` } }));
 }
@@ -27,7 +27,7 @@ function verdict_row(app, gate) {
   return h("div.gate", { "data-gate": gate.gate }, h("span.gate_name", null, gate.gate), h("span.gate_title", null, gate.title), chip(gate.state), gate.violations ? h("span.violations", null, `${count_text(gate.violations)} violations`) : null, h("span.gate_buttons", null, places));
 }
 
-/** "12 prisms beyond the hard limit, 0.0004 % of the volume, at 3 places, 9 too large, 3 too small; 830 beyond the target"; null where no limit is missed. */
+/** Returns "12 prisms beyond the hard limit, 0.0004 % of the volume, at 3 places, 9 too large, 3 too small; 830 beyond the target"; null if no limit is exceeded. */
 function counts_text(gate) {
   const n = (gate.too_small ?? 0) + (gate.too_large ?? 0);
   if (!n) return gate.beyond_hard > 0 ? `${count_text(gate.beyond_hard)} beyond the hard limit` : null;
@@ -60,14 +60,14 @@ function quality_row(app, gate) {
 
 const k_point = /\((-?[\d.]+(?:e[-+]?\d+)?), (-?[\d.]+(?:e[-+]?\d+)?), (-?[\d.]+(?:e[-+]?\d+)?)\)/;
 
-/** One thing that was done to the surface; where it names a place, a way there. */
+/** Returns one change of the surface, with a link to its location if it names one. */
 function change_row(app, text) {
   const found = text.match(k_point);
   const at = found?.slice(1).map(Number);
   return h("li.surface_change", null, text, at ? [" ", button("show", () => app.view && app.fly_to_point(at), { title: `Look at ${found[0]}`, kind: ".small" })] : null);
 }
 
-/** What makes the wall another surface than the files: "repaired: holes filled: 3 places ...; cut ..." is a heading and a list. */
+/** Returns a heading and a list for changes of the surface relative to the files: "repaired: holes filled: 3 places ...; cut ...". */
 function changes(app) {
   const list = app.report.manifest?.changes ?? [];
   if (!list.length) return null;

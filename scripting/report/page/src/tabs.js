@@ -1,8 +1,8 @@
-// Tabs by the pattern of WAI-ARIA: arrow keys move, the panel of a tab is made when it is first shown.
+// Tabs by the WAI-ARIA pattern: arrow keys change the tab, and the panel of a tab is made when it is shown for the first time.
 import { append, h } from "./dom.js";
 
 export class Tabs {
-  /** list of {name, title, make(): element or list}; chosen(name) is called when the reader chooses one. */
+  /** list of {name, title, make(): element or list}; chosen(name) is called if the user selects a tab. */
   constructor(list, chosen) {
     this.list = list;
     this.chosen = chosen;

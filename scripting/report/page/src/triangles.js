@@ -1,14 +1,14 @@
-// Triangles for the graphics card: three corners each, not shared, so that a triangle has a tone and edges of its own. One buffer geometry per set.
+// Triangles for the graphics card: three separate corners each, so that every triangle has its own tone and edges. Each set is one buffer geometry.
 import { BufferAttribute, BufferGeometry, Box3, Sphere, Vector3 } from "three";
 
-/** Triangles in the order in which they are drawn, and which item (triangle of the report, polygon of a cut) each is of. */
+/** Triangles in drawing order, and the item (triangle of the report, polygon of a cut) of each triangle. */
 export class TriangleSet {
-  /** positions: f32[9 m]; flags: u8[m], bits 0-2 are edges; item: u32[m], index of the item whose tone it takes. */
+  /** positions: f32[9 m]; flags: u8[m], bits 0-2 are edges; item: u32[m], index of the item that defines the tone. */
   constructor(positions, flags, item) {
     this.n = item.length;
     this.positions = positions;
     this.item = item;
-    this.data = new Uint16Array(this.n * 6); // per corner: tone, flags
+    this.data = new Uint16Array(this.n * 6); // for each corner: tone, flags
     for (let t = 0; t < this.n; ++t) for (let c = 0; c < 3; ++c) this.data[6 * t + 2 * c + 1] = flags[t];
     this.geometry = new BufferGeometry();
     this.geometry.setAttribute("position", new BufferAttribute(positions, 3));
@@ -17,7 +17,7 @@ export class TriangleSet {
     this.geometry.boundingSphere = sphere_of(positions);
   }
 
-  /** Tones by item. */
+  /** Sets the tones by item. */
   set_tones(tones) {
     const { data, item } = this;
     for (let t = 0; t < this.n; ++t) {
@@ -29,7 +29,7 @@ export class TriangleSet {
     this.data_attribute.needsUpdate = true;
   }
 
-  /** Draws these ranges of triangles only; neighbours are joined, so that few calls are made. Returns them joined. */
+  /** Draws only these ranges of triangles. Adjacent ranges are joined to reduce the number of calls; returns the joined ranges. */
   show_ranges(ranges) {
     const joined = [];
     for (const [from, to] of ranges) {
@@ -71,11 +71,11 @@ function sphere_of(positions) {
 }
 
 const k_wall_flag = 8;
-const k_closed = 0.2; // relative difference of volumes, below which a surface counts as closed and of one orientation
+const k_closed = 0.2; // relative difference of volumes below which a surface counts as closed and consistently oriented
 
-/** 1 when normals of the triangles with k_wall_flag point out of what they enclose, -1 inwards; 0 when they do not enclose anything (open, mixed orientations). */
+/** Returns 1 if normals of triangles with k_wall_flag point out of the enclosed volume, -1 if they point inwards, and 0 if no volume is enclosed (open surface, mixed orientations). */
 function outward_of(positions, flags) {
-  // The volume by the divergence of (x, 0, 0), (0, y, 0), (0, 0, z): three equal numbers for a closed surface of one orientation.
+  // The volume by the divergence of (x, 0, 0), (0, y, 0) and (0, 0, z): three equal numbers for a closed surface with consistent orientation.
   const volumes = [0, 0, 0];
   for (let t = 0, k = 0; t < flags.length; ++t, k += 9) {
     if (!(flags[t] & k_wall_flag)) continue;
@@ -90,7 +90,7 @@ function outward_of(positions, flags) {
   return Math.sign(least);
 }
 
-/** The surface, sorted by patch: ranges[p] = [first triangle, end] in the set's order; outward as of outward_of for the patches that are walls. */
+/** Returns the surface, sorted by patch: ranges[p] = [first triangle, end] in the order of the set; outward is the result of outward_of for patches that are walls. */
 export function surface_set(surface, patches) {
   const { n, points, triangles, patch, edges } = surface;
   const n_patches = patches.length;
@@ -118,22 +118,22 @@ export function surface_set(surface, patches) {
   return set;
 }
 
-const k_thin_cells = 220; // of a thin set's grid along the longest side of the bodies
-const k_thin_cells_around = 60; // the same of what is around them, a farfield
-const k_most_cells = 1 << 17; // along one axis: three such numbers fit into one number
+const k_thin_cells = 220; // grid cells of a thinned set along the longest side of the bodies
+const k_thin_cells_around = 60; // the same for surroundings such as a farfield
+const k_most_cells = 1 << 17; // along one axis: three such numbers can be packed into one number
 
-/** The surface with the points of each cell of a grid drawn into their middle: some ten thousand triangles whatever it has, sorted by patch as surface_set's.
- *  Tones are by item of the surface. */
+/** Returns a thinned surface: the points of each cell of a grid are merged at their mean position. The result has some ten thousand triangles for any surface, sorted by
+ *  patch as in surface_set. Tones are by item of the surface. */
 export function thin_set(surface, patches, set) {
   const { n, points, triangles, patch } = surface;
   const bodies = new Box3();
   set.boxes.forEach((box, p) => patches[p].is_of_body && bodies.union(box));
   const longest = (box) => Math.max(...box.getSize(new Vector3()).toArray(), 1e-12);
   const cell_of = set.boxes.map((box, p) => (patches[p].is_of_body && !bodies.isEmpty() ? longest(bodies) / k_thin_cells : box.isEmpty() ? 1 : longest(box) / k_thin_cells_around));
-  // A point belongs to the grid of the first patch that uses it, so that patches stay joined.
+  // Each point belongs to the grid of the first patch that uses it, so that patches stay connected.
   const cluster = new Int32Array(points.length / 3).fill(-1);
   const known = new Map();
-  const sums = []; // x, y, z, number of each cluster
+  const sums = []; // x, y, z, number of points of each cluster
   for (let t = 0; t < n; ++t) {
     const size = cell_of[patch[t]];
     for (let c = 3 * t; c < 3 * t + 3; ++c) {
@@ -165,7 +165,7 @@ export function thin_set(surface, patches, set) {
   return thin;
 }
 
-/** Polygons of a cut as fans (a plane through a convex cell gives a convex polygon); inner edges of a fan are no edges. */
+/** Returns polygons of a cut as triangle fans (a plane through a convex cell gives a convex polygon); inner edges of a fan are not drawn. */
 export function cut_set(cut) {
   const { n, points, first } = cut;
   let n_triangles = 0;
@@ -181,7 +181,7 @@ export function cut_set(cut) {
   return new TriangleSet(positions, flags, item);
 }
 
-/** Where a ray meets the plane of triangle t; the triangle's centre when it is parallel. */
+/** Returns the intersection of a ray with the plane of triangle t; the centre of the triangle if the ray is parallel. */
 export function point_on(set, t, origin, direction) {
   const [a, b, c] = set.corners(t);
   const normal = b.clone().sub(a).cross(c.clone().sub(a));
@@ -190,7 +190,7 @@ export function point_on(set, t, origin, direction) {
   return origin.clone().addScaledVector(direction, normal.dot(a.clone().sub(origin)) / along);
 }
 
-/** The triangle nearest to a point (by its centre), among the given ranges: {t, distance, normal, size}; null when there is none. */
+/** Returns the triangle of the given ranges whose centre is nearest to a point: {t, distance, normal, size}; null if there is none. */
 export function nearest_triangle(set, point, ranges) {
   let best = -1, least = Infinity;
   const p = set.positions;
@@ -213,7 +213,7 @@ export function nearest_triangle(set, point, ranges) {
   return { t: best, distance: Math.sqrt(least), normal, size };
 }
 
-/** Length to the first triangle along a ray that starts at origin + least * direction; Infinity when it meets none. Moller-Trumbore, both sides. */
+/** Returns the length to the first triangle along a ray that starts at origin + least * direction; Infinity if there is none. Moller-Trumbore, both sides. */
 export function first_hit(set, origin, direction, ranges, least) {
   const p = set.positions;
   const [ox, oy, oz] = origin.toArray(), [dx, dy, dz] = direction.toArray();

@@ -1,4 +1,4 @@
-// The picture: surface, one cut, markers; what lies under the pointer; scale bar and axes. Positions that come in and go out are absolute, in metres.
+// The picture: surface, one cut, markers, item under the pointer, scale bar and axes. Positions in the interface are absolute, in metres.
 import { BufferAttribute, BufferGeometry, Color, ColorManagement, LinearSRGBColorSpace, Mesh, PerspectiveCamera, Points, Scene, Vector2, Vector3, WebGLRenderer, WebGLRenderTarget } from "three";
 import { Camera, k_views, looking } from "./camera.js";
 import { css_colour, h, number_text } from "./dom.js";
@@ -7,17 +7,17 @@ import { picture_with } from "./picture.js";
 import { draw_material, marker_material, palette_texture, pick_material, set_uniforms } from "./shaders.js";
 import { first_hit, nearest_triangle, point_on } from "./triangles.js";
 
-// Colours are written as they are meant on the screen; nothing is mixed in light.
+// Colours are final screen colours; no light is mixed in.
 ColorManagement.enabled = false;
 
-const k_most_pixels = 2; // of the screen per pixel of the page: more costs time and shows nothing
-const k_click_reach = 10; // pixels around a marker that belong to it
-const k_click_slack = 4; // pixels that a hand may move during a click
-const k_slow_pick = 40; // ms: above this, what is under the pointer is looked for only when it rests
+const k_most_pixels = 2; // screen pixels per pixel of the page: more cost time without a visible difference
+const k_click_reach = 10; // pixels around a marker that belong to the marker
+const k_click_slack = 4; // pixels that the pointer may move during a click
+const k_slow_pick = 40; // ms: if picking is slower, the item under the pointer is searched only while the pointer rests
 const k_rest = 160; // ms
-const k_other_sides = [0.45, 1, 2]; // tangents of the angles to the wall's normal at which a place is looked at where the body hides it
-const k_before_wall = 0.9; // of the length to the next wall, where that is nearer than one would look from
-const k_least_place = 4e-3; // radius that is shown around a place, of the body length: next to slivers one wants to see their neighbours
+const k_other_sides = [0.45, 1, 2]; // tangents of the angles to the wall normal for other views of a location that the body hides
+const k_before_wall = 0.9; // relative to the length to the next wall, if the wall is nearer than the view distance
+const k_least_place = 4e-3; // smallest radius that is shown around a location, relative to the body length: neighbours of slivers must be visible
 
 export class Layer {
   constructor(scene) {
@@ -26,7 +26,7 @@ export class Layer {
     this.pick = pick_material(this.uniforms);
     this.scene = scene;
     this.set = null;
-    this.thin = null; // the same with fewer triangles, for frames that have to be quick
+    this.thin = null; // the same surface with fewer triangles, for fast frames
     this.mesh = null;
   }
 
@@ -45,13 +45,13 @@ export class Layer {
     this.scene.add(this.mesh);
   }
 
-  /** Draws these ranges of triangles only (of the thin set: thin_ranges). */
+  /** Draws only these ranges of triangles (of the thin set: thin_ranges). */
   show_ranges(ranges, thin_ranges = []) {
     this.ranges = this.set.show_ranges(ranges);
     this.thin?.show_ranges(thin_ranges);
   }
 
-  /** Whether the thin set is drawn, where there is one. */
+  /** Draws the thin set, if there is one, or the full set. */
   use_thin(is_thin) {
     if (this.mesh) this.mesh.geometry = (is_thin && this.thin ? this.thin : this.set).geometry;
   }
@@ -63,7 +63,7 @@ export class Layer {
     this.thin?.set_tones(tones);
   }
 
-  /** The same where the thin set is drawn. */
+  /** Returns the number of drawn triangles while the thin set is drawn. */
   n_drawn_thin() {
     if (!this.thin) return this.n_drawn();
     return this.mesh?.visible ? this.thin.n : 0;
@@ -75,7 +75,7 @@ export class Layer {
 }
 
 export class View {
-  /** Adds its canvas to `container`. \throws ReportError where there is no WebGL 2. */
+  /** Adds the canvas to `container`. \throws ReportError without WebGL 2. */
   constructor(container, origin, handlers) {
     this.container = container;
     this.handlers = handlers;
@@ -107,7 +107,7 @@ export class View {
     this.pin = null;
     this.symmetry_normal = new Vector3();
     this.knows_fluid = false;
-    this.framed = null; // points that the picture was last fitted to, until something else moves the camera
+    this.framed = null; // points to which the picture was last fitted, until the camera moves for another reason
     this.pick_target = new WebGLRenderTarget(1, 1);
     this.overlay();
     this.listen();
@@ -135,7 +135,7 @@ export class View {
   resize() {
     const width = Math.max(1, this.container.clientWidth), height = Math.max(1, this.container.clientHeight);
     this.renderer.setSize(width, height, false);
-    this.camera.height = height; // asking the page for it in every frame would have it laid out each time
+    this.camera.height = height; // reading the height from the page in every frame would force a new layout each time
     const aspect = width / this.camera.n_pictures / height;
     const is_other = this.lens.aspect !== aspect;
     this.lens.aspect = aspect;
@@ -143,7 +143,7 @@ export class View {
     this.request();
   }
 
-  /** The camera moves: for those who draw otherwise then. */
+  /** Called if the camera moves. The workbench draws faster during movements. */
   moves() {}
 
   local(position) {
@@ -186,7 +186,7 @@ export class View {
     if (at) this.pin_element.style.transform = `translate(${at[0].toFixed(1)}px, ${at[1].toFixed(1)}px)`;
   }
 
-  /** Pixels of an absolute position, in one of the pictures side by side; null behind the camera or outside of the picture. */
+  /** Returns the pixels of an absolute position, in one of the pictures side by side; null behind the camera or outside of the picture. */
   on_screen(position, picture = this.camera.n_pictures - 1) {
     const point = this.local(position).applyMatrix4(this.lens.matrixWorldInverse);
     if (point.z >= 0) return null;
@@ -220,7 +220,7 @@ export class View {
     bar.style.width = `${(length / this.camera.pixel_size()).toFixed(1)}px`;
   }
 
-  // ---- what is shown
+  // ---- visible objects
 
   set_surface(set) {
     this.surface.show(set, new Vector3());
@@ -228,7 +228,7 @@ export class View {
     this.request();
   }
 
-  /** ranges of triangles of the visible patches; the scene's extent is theirs. */
+  /** Draws these ranges of triangles of the visible patches, which define the extent of the scene. */
   show_ranges(ranges) {
     this.surface.show_ranges(ranges);
     this.request();
@@ -244,7 +244,7 @@ export class View {
     this.request();
   }
 
-  /** Hides the surface on the side that `normal` points to; null shows all of it. */
+  /** Hides the surface on the side to which `normal` points; null shows the complete surface. */
   set_clip(plane) {
     const clip = this.surface.uniforms.clip;
     if (!plane) clip.value = [0, 0, 0, 1];
@@ -263,7 +263,7 @@ export class View {
     this.request();
   }
 
-  /** list of {at, colour: [r, g, b]}; seen through everything. */
+  /** Shows markers through all objects; list of {at, colour: [r, g, b]}. */
   set_markers(list) {
     if (this.markers) {
       this.scene.remove(this.markers);
@@ -285,7 +285,7 @@ export class View {
     this.request();
   }
 
-  /** The chosen place: a ring with a text; null takes it away. */
+  /** Marks the selected location by a ring with a text; null removes the mark. */
   set_pin(pin) {
     this.pin = pin;
     if (pin) {
@@ -295,17 +295,17 @@ export class View {
     this.request();
   }
 
-  // ---- where the camera is
+  // ---- camera
 
   look_along(name, points, is_smooth = true) {
     const [from, up] = k_views[name];
     const along = new Vector3(...from);
-    const away = -along.dot(this.symmetry_normal); // half models are seen from the side of the fluid
+    const away = -along.dot(this.symmetry_normal); // half models are viewed from the side of the fluid
     if (away > 0) along.addScaledVector(this.symmetry_normal, 2 * away);
     this.fit(points, is_smooth, looking(along, new Vector3(...up)));
   }
 
-  /** All points (xyz, ..., relative to the origin) into the picture. */
+  /** Fits all points (xyz, ..., relative to the origin) into the picture. */
   fit(points, is_smooth = true, orientation = this.camera.orientation) {
     this.camera.go({ ...this.camera.framing(points, orientation), orientation }, is_smooth);
     this.framed = points;
@@ -319,8 +319,8 @@ export class View {
     this.camera.go({ target: this.local(cut.focus.center), distance: this.camera.distance_for(cut.focus.radius), orientation }, is_smooth);
   }
 
-  /** Looks at a place from outside the body: along the nearest triangle's normal, from the side of the fluid, which valid meshes know (`knows_fluid`; their faces look out of it),
-   *  else from where nothing is in between; some 20 triangles wide. */
+  /** Views a location from outside the body, along the normal of the nearest triangle. Valid meshes define the side of the fluid (`knows_fluid`; their faces point into the
+   *  fluid); for other meshes the view is from a side without obstacles. The view is about 20 triangles wide. */
   fly_to_place(position, length, ranges, is_smooth = true) {
     const target = this.local(position);
     const near = this.surface.set ? nearest_triangle(this.surface.set, target, ranges) : null;
@@ -328,7 +328,7 @@ export class View {
     if (near && near.distance < length * 0.5) {
       const outwards = this.outwards_at(target, near, ranges);
       distance = this.camera.distance_for(Math.max(near.size * 10, near.distance * 3, length * k_least_place));
-      // A view along the normal itself is flat; some 25 degrees aside show relief. Where the body is in the way, from the first other side from which it is not, or hides it latest.
+      // A view along the normal looks flat; an angle of about 25 degrees shows relief. If the body hides the location, the first free direction is used, or the direction with the longest free view.
       const side = new Vector3(0, 0, 1).cross(outwards).multiplyScalar(0.35).add(new Vector3(0, 0, 0.25));
       const { towards, free } = this.free_side(target, outwards, side, distance, ranges, near);
       if (free < distance) distance = Math.max(k_before_wall * free, near.size); // in a slot
@@ -338,7 +338,7 @@ export class View {
     this.camera.go({ target, distance, orientation }, is_smooth);
   }
 
-  /** Length to the next wall from a place in that direction. */
+  /** Returns the length from a location to the next wall in a direction. */
   free_length(target, direction, near, ranges) {
     return first_hit(this.surface.set, target, direction, ranges, near.distance * 1e-3 + near.size * 1e-3);
   }
@@ -349,7 +349,7 @@ export class View {
     return this.free_length(target, other, near, ranges) > this.free_length(target, one, near, ranges) ? other : one;
   }
 
-  /** From where a place is seen: `side` off its normal if nothing is in between over `distance`, else the first other side where that is so, else the freest. {towards, free: m to the next wall} */
+  /** Returns the direction from which a location is viewed: `side` off its normal if nothing is in between over `distance`, else the first free direction, else the direction with the longest free view. {towards, free: m to the next wall} */
   free_side(target, outwards, side, distance, ranges, near) {
     const across = new Vector3(0, 0, 1).cross(outwards);
     if (across.length() < 1e-6) across.set(1, 0, 0);
@@ -365,9 +365,9 @@ export class View {
     return best;
   }
 
-  // ---- what is under the pointer
+  // ---- item under the pointer
 
-  /** {index, triangle, item, at, point} of what is first at pixels of the canvas, of layers[index]; or null. Drawn once more, one pixel, each triangle in a colour of its own. */
+  /** Returns {index, triangle, item, at, point} of the first item at pixels of the canvas, in layers[index]; or null. The picture is drawn once more, one pixel, with a separate colour for each triangle. */
   hit(layers, x, y) {
     const size = this.renderer.getSize(new Vector2());
     size.x /= this.camera.n_pictures;
@@ -407,13 +407,13 @@ export class View {
     return { index, triangle, item: layer.set.item[triangle], at: this.absolute(point), point };
   }
 
-  /** {layer: "surface" | "cut", item, at} at pixels of the canvas, or null. */
+  /** Returns {layer: "surface" | "cut", item, at} at pixels of the canvas, or null. */
   pick(x, y) {
     const found = this.hit([this.surface, this.cut], x, y);
     return found && { layer: found.index === 0 ? "surface" : "cut", item: found.item, at: found.at, point: found.point };
   }
 
-  /** Index of the marker at pixels of the canvas, or -1. */
+  /** Returns the index of the marker at pixels of the canvas, or -1. */
   marker_at(x, y) {
     let best = -1, least = k_click_reach;
     this.marker_list.forEach((marker, k) => {
@@ -477,13 +477,13 @@ export class View {
     });
   }
 
-  /** Promise of the picture as a PNG (a Blob), with more elements over it. */
+  /** Returns a promise of the picture as a PNG (a Blob), with additional elements over it. */
   picture(elements) {
-    this.draw(); // in the same task: afterwards the canvas is empty
+    this.draw(); // in the same task, because the canvas is empty afterwards
     return picture_with(this.canvas, [...elements, this.scale_bar, this.axes, this.pin_element]);
   }
 
-  /** Share of pixels that are not background, and the number of distinct colours among a sample: for tests. */
+  /** Returns the share of pixels that are not background, and the number of distinct colours in a sample; for tests. */
   pixels() {
     this.draw();
     const context = this.renderer.getContext();

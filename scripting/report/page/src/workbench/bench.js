@@ -1,4 +1,4 @@
-// The workbench: what the program says of its runs, the picture, and the panels around it.
+// The workbench: the state of the runs, the picture, and the panels around it.
 import { k_views } from "../camera.js";
 import { k_maps, range_of } from "../colours.js";
 import { button, fill, h } from "../dom.js";
@@ -23,20 +23,20 @@ import { get_cut, get_scene, get_state, post } from "./server.js";
 import { status_line } from "./status.js";
 import { tree_panel } from "./tree.js";
 
-const k_retry = 1000; // ms until the program is asked again after it did not answer
+const k_retry = 1000; // ms until the next request if the program did not answer
 const k_view_titles = { iso: "Iso", front: "Front", back: "Back", side: "Side", top: "Top", bottom: "Bottom" };
 const k_view_keys = Object.keys(k_view_titles);
 const k_error_colour = [204, 64, 52];
 
 export class Bench {
   constructor() {
-    // news: what the program said last; the rest is the user's.
+    // news: the latest state from the program; all other values are the user's.
     this.state = new State({ news: null, chosen: null, color: "patch", map: "viridis", edges: true, tab: "object", cut: null, around: "clip", cut_color: "kind", place: -1, is_before: false, is_split: false, is_in_cases: false, version: 0, shown: 0 });
-    this.loading = new Map(); // key -> number of the scene that is being loaded
+    this.loading = new Map(); // key -> number of the scene that is loading
     this.loaded = new Map(); // key -> number of the scene in the picture
     this.lines = [];
     this.n_lines = 0;
-    this.times = { news: 0, scene: 0, drawn: 0 }; // for tests: when the last came, and was drawn
+    this.times = { news: 0, scene: 0, drawn: 0 }; // for tests: times at which the last news and scene arrived, and at which the last frame was drawn
     this.is_framed = false;
   }
 
@@ -96,10 +96,10 @@ export class Bench {
     const news = await get_state(0, 0);
     if (news.has_cases) await this.open_cases();
     await this.take_news(news);
-    this.listen(); // for as long as the page is there
+    this.listen(); // continues while the page exists
   }
 
-  /** The page is about a series: its cases come first. */
+  /** Shows the cases first if the page is about a series. */
   async open_cases() {
     this.cases = new CasesPanel(this);
     this.view_box.append(this.cases.element);
@@ -107,14 +107,14 @@ export class Bench {
     await this.cases.load();
   }
 
-  /** Waits until news say so and all that is shown is in the picture. \throws ReportError after `patience` ms */
+  /** Waits until the news fulfil a condition and all visible objects are in the picture. \throws ReportError after `patience` ms */
   async is_shown_as(is_so, patience) {
     const is_there = () => is_so(this.state.get("news")) && this.objects().every((object) => !this.is_shown(object) || !object.scene || this.loaded.get(object.key) === object.scene);
     for (const end = performance.now() + patience; performance.now() < end; await new Promise((resolve) => setTimeout(resolve, 30))) if (is_there()) return;
-    throw new ReportError("It takes too long.");
+    throw new ReportError("The picture was not complete within the time limit.");
   }
 
-  /** Calls after changes of these names while that tab is shown; what a hidden one has missed, when it is shown again. */
+  /** Registers a listener for changes of these names while the tab is visible; a hidden tab is updated when it is shown again. */
   on_in_tab(tab, names, call) {
     let has_missed = false;
     this.state.on(names, (values) => {
@@ -128,7 +128,7 @@ export class Bench {
     });
   }
 
-  // ---- What the program says
+  // ---- News of the program
 
   async listen() {
     for (;;) {
@@ -159,7 +159,7 @@ export class Bench {
     this.load_scenes();
   }
 
-  /** Scenes of objects that are shown and newer than what is in the picture. */
+  /** Loads the scenes of visible objects that are newer than those in the picture. */
   load_scenes() {
     for (const object of this.objects()) {
       if (!object.scene || this.loaded.get(object.key) === object.scene || this.loading.get(object.key) === object.scene || !this.is_shown(object)) continue;
@@ -171,19 +171,19 @@ export class Bench {
   async load(key, number, run) {
     try {
       const scene = await get_scene(number);
-      if (this.loading.get(key) !== number) return; // a newer one is on its way
+      if (this.loading.get(key) !== number) return; // a newer scene is loading
       this.loaded.set(key, number);
       this.view.take(key, { ...scene, run });
       this.times.scene = performance.now();
       this.take_scene();
     } catch (error) {
-      if (!(error instanceof ReportError)) throw error; // gone: news of the next one come
+      if (!(error instanceof ReportError)) throw error; // the scene no longer exists; news of the next scene will follow
     } finally {
       if (this.loading.get(key) === number) this.loading.delete(key);
     }
   }
 
-  /** After a scene came: what follows from it. */
+  /** Updates the page after a scene has arrived. */
   take_scene() {
     const shown = this.objects().filter((object) => this.is_shown(object) && this.loaded.has(object.key));
     if (!shown.some((object) => object.key === this.state.get("chosen")) && shown.length) this.state.set({ chosen: shown[shown.length - 1].key });
@@ -213,7 +213,7 @@ export class Bench {
     return this.objects().find((object) => object.key === key) ?? null;
   }
 
-  /** The user's word counts, else the program's. */
+  /** Returns whether an object is visible: the selection of the user, otherwise that of the program. */
   is_shown(object) {
     return this.choices?.get(object.key) ?? object.is_shown;
   }
@@ -243,7 +243,7 @@ export class Bench {
     this.view.request();
   }
 
-  /** Patches of an object by name: shown or not. */
+  /** Shows or hides patches of an object by name. */
   show_patches(key, names, is_shown) {
     const shown = this.view.objects.get(key);
     if (!shown) return;
@@ -254,14 +254,14 @@ export class Bench {
     this.view.request();
   }
 
-  /** The one that panels are about, with its scene; null without. */
+  /** Returns the object of the panels with its scene, or null. */
   chosen() {
     return this.view?.objects.get(this.state.get("chosen")) ?? null;
   }
 
   // ---- Colours
 
-  /** Fields of what is shown, by name. */
+  /** Returns the fields of the visible objects by name. */
   fields() {
     const fields = new Map();
     for (const shown of this.view?.visible() ?? []) for (const field of shown.drawn.scene.surface.fields) if (!fields.has(field.name)) fields.set(field.name, field);
@@ -273,7 +273,7 @@ export class Bench {
     const { color, map } = this.state.values;
     const visible = this.view.visible();
     const field_in = (shown) => shown.drawn.scene.surface.fields.find((field) => field.name === color) ?? null;
-    // One range for all, so that colours of different objects can be compared.
+    // One range for all objects, so that their colours can be compared.
     let range = null;
     for (const shown of visible) {
       const field = field_in(shown);
@@ -294,7 +294,7 @@ export class Bench {
     this.view.request();
   }
 
-  /** The run before beside this one: by the same figure, with this one's colours. */
+  /** Colours the previous run beside this run by the same quantity, on the same scale. */
   paint_before(shown, color, range, map) {
     const { scene } = shown.previous;
     const field = scene.surface.fields.find((entry) => entry.name === color);
@@ -337,9 +337,9 @@ export class Bench {
     this.view.hide_surfaces(Boolean(cut && around === "hide"));
   }
 
-  // ---- Places
+  // ---- Locations
 
-  /** Places of the mesh that is chosen, or of errors. */
+  /** Returns the locations of the selected mesh, or of errors. */
   places() {
     const problems = this.state.get("news")?.problems ?? [];
     const of_errors = problems.flatMap((problem) => problem.places.map((place) => ({ at: place.at, title: "error", text: place.what, colour: k_error_colour })));
@@ -363,7 +363,7 @@ export class Bench {
     if (chosen?.set) this.view.fly_to_place(place.at, chosen.scene.length, chosen.ranges());
   }
 
-  // ---- What is said
+  // ---- Messages
 
   say(text) {
     this.message.textContent = text;
@@ -437,7 +437,7 @@ export class Bench {
     for (const shown of this.view.objects.values()) shown.drawn && this.show_patches(shown.key, [...shown.hidden], true);
   }
 
-  /** What tests may ask: never changes anything. */
+  /** Returns the state of the page for tests; changes nothing. */
   test_state() {
     const { news, ...values } = this.state.values;
     const shown = [...(this.view?.objects.values() ?? [])].map((object) => ({
@@ -475,7 +475,7 @@ export class Bench {
   }
 }
 
-/** Triangles of the run before that stand beside this one, by object. */
+/** Returns the triangles of the previous run that are beside this run, by object. */
 function shown_before(view) {
   return [...(view?.objects.values() ?? [])].filter((object) => object.before.set).map((object) => ({ key: object.key, drawn: object.before.ranges.reduce((sum, [from, to]) => sum + to - from, 0) }));
 }

@@ -1,11 +1,11 @@
-// The picture of several objects, each with its own triangles and origin; what is chosen among them is the view's surface.
+// The picture of several objects, each with its own triangles and origin. The selected object is the surface of the view.
 import { Box3, Sphere, Vector3 } from "three";
 import { surface_set, thin_set } from "../triangles.js";
 import { Layer, View } from "../view.js";
 import { k_levels, Pace } from "./pace.js";
 
-const k_thin_from = 200000; // triangles from which on a surface has a thin set for movements
-const k_most_framed = 30000; // points: enough to frame any body
+const k_thin_from = 200000; // number of triangles from which a surface has a thin set for movements
+const k_most_framed = 30000; // number of points, which is enough to frame any body
 
 /** An object in the picture. */
 class Shown {
@@ -16,14 +16,14 @@ class Shown {
     this.scene = null;
     this.set = null;
     this.is_visible = true;
-    this.hidden = new Set(); // names of patches
-    this.previous = null; // {scene, set} of the run before
-    this.before = new Layer(view.scene); // it, where both are side by side
-    this.last = null; // the same while sketches are shown: what will be the one before
+    this.hidden = new Set(); // names of the hidden patches
+    this.previous = null; // {scene, set} of the previous run
+    this.before = new Layer(view.scene); // layer of the previous run while both are side by side
+    this.last = null; // the previous run while sketches are shown, for the next comparison
   }
 
   take(scene) {
-    if (this.scene?.is_quick) this.set.dispose(); // a sketch is no run that one compares with
+    if (this.scene?.is_quick) this.set.dispose(); // sketches are not compared
     else if (this.scene?.run === scene.run) this.set?.dispose();
     else if (this.scene && !scene.is_quick) this.keep({ scene: this.scene, set: this.set });
     else if (this.scene) this.last = { scene: this.scene, set: this.set };
@@ -31,7 +31,7 @@ class Shown {
       this.keep(this.last);
       this.last = null;
     }
-    // A farfield or a tunnel would hide the body within: it is there to be ticked in the tree.
+    // A farfield or a tunnel would hide the body. The user can show it in the tree.
     if (!this.scene && (scene.kind === "volume" || scene.kind === "surface") && scene.patches.some((patch) => patch.is_of_body))
       for (const patch of scene.patches) if (!patch.is_of_body) this.hidden.add(patch.name);
     this.scene = scene;
@@ -46,11 +46,11 @@ class Shown {
     this.show_before();
   }
 
-  /** The run before gets a layer of its own while both are side by side. */
+  /** Gives the previous run its own layer while both are side by side. */
   show_before() {
     const { previous } = this.view.is_split ? this : { previous: null };
     if (this.before.set === (previous?.set ?? null)) return;
-    this.before.set = null; // not thrown away: it is kept here
+    this.before.set = null; // not disposed, because it is kept here
     this.before.show(previous?.set ?? null, previous ? new Vector3(...previous.scene.origin).sub(this.view.origin) : null);
     if (!previous) return;
     this.before.thin = previous.set.thin ?? null;
@@ -58,17 +58,17 @@ class Shown {
     this.refresh();
   }
 
-  /** Shows that one: the current, or the one before. */
+  /** Shows one run: the current or the previous run. */
   show({ scene, set }) {
     this.drawn = { scene, set };
-    this.layer.set = null; // the layer would throw away what it showed; the one before is kept here
+    this.layer.set = null; // the layer would dispose of the run that it showed; the previous run is kept here
     this.layer.show(set, new Vector3(...scene.origin).sub(this.view.origin));
     this.layer.thin = set.thin ?? null;
     this.layer.uniforms.outward.value = set.outward;
     this.refresh();
   }
 
-  /** Ranges of the patches that are shown. */
+  /** Returns the ranges of the visible patches. */
   ranges(set = this.drawn.set, scene = this.drawn.scene) {
     return set.ranges.filter((_, p) => !this.hidden.has(scene.patches[p].name));
   }
@@ -105,19 +105,19 @@ export class BenchView extends View {
     this.objects = new Map();
     this.nothing = this.surface; // a layer without triangles
     this.chosen = null;
-    this.is_split = false; // the run before at the left, this one at the right
+    this.is_split = false; // the previous run is on the left, this run on the right
     this.has_hidden_surfaces = false;
     this.has_origin = false;
     this.pace = new Pace(this.renderer.getContext(), () => this.request());
     this.full_ratio = this.renderer.getPixelRatio();
-    this.restyle(); // the first time was before there were objects
+    this.restyle(); // the first call was before the objects existed
   }
 
   layers() {
     return [...(this.objects?.values() ?? [])].flatMap((object) => (object.before.set ? [object.layer, object.before] : [object.layer]));
   }
 
-  /** The run before beside this one, from one camera. */
+  /** Shows the previous run beside this run, from one camera. */
   split(is_split) {
     this.is_split = is_split;
     this.camera.n_pictures = is_split ? 2 : 1;
@@ -127,14 +127,14 @@ export class BenchView extends View {
     this.resize();
   }
 
-  /** Whether surfaces are left out, so that a cut is seen alone. */
+  /** Hides or shows all surfaces; without them only the cut is visible. */
   hide_surfaces(are_hidden) {
     this.has_hidden_surfaces = are_hidden;
     this.show_side(1);
     this.request();
   }
 
-  /** What belongs to the picture of the run before (0), of this one (1). */
+  /** Shows the objects that belong to the picture of the previous run (0) or of this run (1). */
   show_side(side) {
     for (const object of this.objects.values()) {
       if (object.layer.mesh) object.layer.mesh.visible = side === 1 && !this.has_hidden_surfaces;
@@ -168,7 +168,7 @@ export class BenchView extends View {
     this.request();
   }
 
-  /** The object that places, cuts and the camera's flights are about; its origin becomes the picture's, for accuracy. */
+  /** Selects the object of locations, cuts and camera flights. Its origin becomes the origin of the picture, for accuracy. */
   choose(key) {
     const object = this.objects.get(key);
     this.chosen = object ? key : null;
@@ -191,7 +191,7 @@ export class BenchView extends View {
     return [...this.objects.values()].filter((object) => object.is_visible && object.drawn);
   }
 
-  /** Points (relative to the origin) that bound what is shown. */
+  /** Returns points (relative to the origin) that bound the visible objects. */
   visible_points() {
     const points = [];
     const objects = this.visible();
@@ -283,7 +283,7 @@ export class BenchView extends View {
     this.pace?.move();
   }
 
-  /** Makes the frame's level of drawing so; returns it. */
+  /** Sets the drawing level of the frame and returns it. */
   use_level() {
     if (!this.pace) return 0;
     const layers = [...this.layers(), this.cut];
@@ -295,10 +295,10 @@ export class BenchView extends View {
     return level;
   }
 
-  /** The drawing, `width` pixels wide, as the address of a picture. */
+  /** Returns the drawing, `width` pixels wide, as the address of a picture. */
   async thumbnail(width) {
     this.pace.rest();
-    this.draw(); // in the same task: afterwards the canvas is empty
+    this.draw(); // in the same task, because the canvas is empty afterwards
     const small = document.createElement("canvas");
     small.width = width;
     small.height = Math.round((width * this.canvas.height) / this.canvas.width);
@@ -316,7 +316,7 @@ export class BenchView extends View {
     return super.pixels();
   }
 
-  /** {key, item, at, point, picture} of an object, {layer: "cut", item, at, picture}, or null. */
+  /** Returns {key, item, at, point, picture} of an object, {layer: "cut", item, at, picture}, or null. */
   pick(x, y) {
     const objects = [...(this.objects?.values() ?? [])];
     const side = this.is_split && x < this.container.clientWidth / 2 ? 0 : 1;

@@ -1,18 +1,18 @@
-// A series that has run: pictures and a table of its cases, over the picture; a click opens the case.
+// The cases of a series as pictures and as a table, over the picture. A click opens the case.
 import { chip, state_class } from "../banner.js";
 import { button, count_text, fill, h, number_text } from "../dom.js";
 import { sentence_of } from "../errors.js";
 import { get_cases, get_picture, post } from "./server.js";
 
-const k_picture_width = 320; // pixels of a picture that is taken from the view
-const k_case_patience = 120000; // ms for a case to be read while pictures are taken
+const k_picture_width = 320; // pixels, width of a picture that is taken from the view
+const k_case_patience = 120000; // ms, time limit for reading a case while pictures are taken
 
 function value_text(value) {
   if (typeof value === "number") return number_text(value);
   return value === null || value === undefined || typeof value === "object" ? "\u2013" : String(value);
 }
 
-/** Numbers by size, the rest by its letters; what is not there comes last. */
+/** Compares values: numbers by size, other values alphabetically; missing values come last. */
 function compared(a, b) {
   const is_gap = (x) => x === undefined || x === null || x === "";
   if (is_gap(a) || is_gap(b)) return is_gap(a) - is_gap(b);
@@ -23,7 +23,7 @@ export class CasesPanel {
   constructor(bench) {
     this.bench = bench;
     this.cases = [];
-    this.pictures = new Map(); // address of a picture by name of the case
+    this.pictures = new Map(); // address of a picture by the name of the case
     this.sort = { key: null, is_down: false };
     this.grid = h("div.case_grid", { id: "case_grid" });
     this.table = h("table.list", { id: "case_table" });
@@ -43,7 +43,7 @@ export class CasesPanel {
     this.bench.state.set({ is_in_cases: is_shown });
   }
 
-  /** The case that the picture shows, as its number in the script; null: none does yet. */
+  /** Returns the number in the script of the case in the picture; null if there is none. */
   current() {
     const { news } = this.bench.state.values;
     const asked = Number(news?.values.case ?? 1);
@@ -65,7 +65,7 @@ export class CasesPanel {
     this.draw_grid();
   }
 
-  /** The picture of the case that is shown, from the view. */
+  /** Takes the picture of the visible case from the view. */
   async keep_view() {
     const entry = this.cases.find((known) => known.case === this.current());
     if (entry) this.keep(entry.name, await this.bench.view.thumbnail(k_picture_width));
@@ -89,7 +89,7 @@ export class CasesPanel {
     }
   }
 
-  // ---- What is drawn
+  // ---- Drawing
 
   columns() {
     const names = (member) => [...new Set(this.cases.flatMap((entry) => Object.keys(entry[member] ?? {})))];
@@ -151,7 +151,7 @@ export class CasesPanel {
     return h(`td${typeof value === "number" ? ".number" : ""}`, null, value_text(value));
   }
 
-  /** Which one is in the picture. */
+  /** Marks the case that is in the picture. */
   mark() {
     const shown = this.cases.find((entry) => entry.case !== null && entry.case === this.current())?.name;
     for (const element of this.element.querySelectorAll("[data-case]")) element.classList.toggle("current", element.dataset.case === shown);

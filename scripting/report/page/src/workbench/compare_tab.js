@@ -1,8 +1,8 @@
-// The run before against this one: flicked in the picture, or both from one camera; measures and gates in a table.
+// The previous run against this run: alternately in the picture, or both from one camera; measures and gates in a table.
 import { chip } from "../banner.js";
 import { button, fill, h, quantity_text } from "../dom.js";
 
-/** Rows {name, before, now} of facts and gates. */
+/** Returns rows {name, before, now} of facts and gates. */
 function rows_of(before, now) {
   const rows = [];
   const names = [...new Set([...before.facts, ...now.facts].map(([name]) => name))];

@@ -1,4 +1,4 @@
-// A plane that is dragged through the volume mesh; its cells follow as fast as the program cuts.
+// A plane that is dragged through the volume mesh. Its cells are shown as soon as the program has cut them.
 import { button, count_text, fill, h, number_text } from "../dom.js";
 import { select_of } from "../surface_tab.js";
 import { mesh_of } from "./mesh_tab.js";
@@ -18,7 +18,7 @@ export function cuts_tab(bench) {
   const form = h("div.form", null, axis, h("div.field", null, slider, place), around, colours, cells, h("div.buttons", null, button("Look at it", () => look(), { id: "cut_look", kind: ".small" }), button("No cut", () => state.set({ cut: null }), { id: "cut_none", kind: ".small" })));
   let low = 0, high = 1, wanted = null, is_busy = false;
 
-  /** The walls bound the plane's way: a farfield is far. */
+  /** The walls limit the movement of the plane, because a farfield is too large. */
   const range = () => {
     const mesh = mesh_of(bench);
     if (!mesh) return;
@@ -36,7 +36,7 @@ export function cuts_tab(bench) {
     range();
     wanted = `${axis.lastChild.value}=${Number(value().toPrecision(6))}`;
     place.textContent = `${axis.lastChild.value} = ${number_text(value())} m`;
-    if (is_busy) return; // the newest is asked for when this one is there
+    if (is_busy) return; // the latest position is requested when this cut has arrived
     is_busy = true;
     try {
       while (wanted) {

@@ -1,12 +1,12 @@
-// What inspect{} finds on the surface that is chosen, with places to fly to.
+// The findings of inspect{} on the selected surface, with locations for camera flights.
 import { state_colour } from "../banner.js";
 import { button, count_text, fill, h, position_text } from "../dom.js";
 import { sentence_of } from "../errors.js";
 import { get_inspection } from "./server.js";
 
-const k_states = { error: "fail", warn: "warn", note: "unknown" }; // severities as states, whose colours they take
+const k_states = { error: "fail", warn: "warn", note: "unknown" }; // severities as states, whose colours they have
 
-/** The surface that the panel is about: the chosen object, or the last one. */
+/** Returns the surface of the panel: the selected object, or the last surface. */
 function surface_of(bench) {
   const chosen = bench.chosen();
   if (chosen?.scene?.kind === "surface") return chosen;
@@ -30,7 +30,7 @@ function finding_element(bench, surface, finding, number) {
 }
 
 export function inspect_tab(bench) {
-  const known = new Map(); // by the scene that it is about
+  const known = new Map(); // findings by scene
   const body = h("div", { id: "inspect_tab" });
   const refresh = () => {
     const surface = surface_of(bench);

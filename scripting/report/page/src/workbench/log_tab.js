@@ -1,4 +1,4 @@
-// What the runs say, as they say it.
+// The log of the runs, updated during a run.
 import { fill, h } from "../dom.js";
 
 const k_most = 400;

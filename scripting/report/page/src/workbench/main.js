@@ -1,4 +1,4 @@
-// Entry of the workbench.
+// Entry point of the workbench.
 import { start_page } from "../start_page.js";
 import { Bench } from "./bench.js";
 

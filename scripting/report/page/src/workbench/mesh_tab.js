@@ -1,9 +1,9 @@
-// Verdict, gates and worst places of the volume mesh that is chosen.
+// Verdict, gates and worst locations of the selected volume mesh.
 import { chip, state_class, state_colour } from "../banner.js";
 import { fill, h, number_text, position_text, quantity_text } from "../dom.js";
 import { place_text, place_title } from "../places_tab.js";
 
-/** The volume mesh that panels are about: the chosen object, or the last one. */
+/** Returns the volume mesh of the panels: the selected object, or the last volume mesh. */
 export function mesh_of(bench) {
   const chosen = bench.chosen();
   if (chosen?.scene?.kind === "volume") return chosen;

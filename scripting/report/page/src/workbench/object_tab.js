@@ -1,4 +1,4 @@
-// Measures of the object that is chosen.
+// Measures of the selected object.
 import { count_text, fill, h, number_text } from "../dom.js";
 
 export function object_tab(bench) {

@@ -1,29 +1,29 @@
-// How finely the picture is drawn while it moves: so that frames come smoothly, whatever the mesh and the graphics card; finely again when it rests.
+// The level of detail during movements: frames stay smooth for any mesh and graphics card, and the picture has full detail at rest.
 
-const k_smooth = 40; // ms of a frame that is smooth enough
-const k_rest = 300; // ms without movement until all is drawn again
-const k_poll = 4; // ms between looks whether a frame is there
-const k_most_wait = 5000; // ms: a frame that takes longer is not waited for
-const k_many = 500000; // triangles that may be too many for a frame of which nothing is known
-const k_most_frame = 1000; // ms: what would take longer (no graphics card) is thinned at rest, too
-const k_other_size = 1.3; // ratio of numbers of triangles from which a picture counts as another one
+const k_smooth = 40; // ms, longest duration of a smooth frame
+const k_rest = 300; // ms without movement until the full picture is drawn
+const k_poll = 4; // ms between checks for the end of a frame
+const k_most_wait = 5000; // ms: the program does not wait for a longer frame
+const k_many = 500000; // number of triangles that may be too many for a frame of unknown duration
+const k_most_frame = 1000; // ms: if a full frame takes longer (no graphics card), surfaces are thinned at rest as well
+const k_other_size = 1.3; // ratio of the numbers of triangles from which a picture counts as a different picture
 
-/** Levels of drawing: all of it; surfaces thinned; thinned, and at half the resolution. */
+/** Drawing levels: full; thinned surfaces; thinned surfaces at half the resolution. */
 export const k_levels = [{ is_thin: false, share: 1 }, { is_thin: true, share: 1 }, { is_thin: true, share: 0.5 }];
 
 export class Pace {
-  /** gl: the context; redraw(): asks for a frame. */
+  /** gl: the context; redraw(): requests a frame. */
   constructor(gl, redraw) {
     this.gl = gl;
     this.redraw = redraw;
     this.costs = new Array(k_levels.length).fill(null); // ms of the last frame of each level
-    this.size = 0; // triangles of the picture that the costs are of
+    this.size = 0; // number of triangles of the picture with these costs
     this.is_moving = false;
     this.is_waiting = false;
-    this.is_whole = false; // of the next frame: all of it, whatever it takes
+    this.is_whole = false; // the next frame has full detail, for any duration
   }
 
-  /** Something moves: for a moment, frames are drawn for speed. */
+  /** Reports a movement: for a moment, frames are drawn for speed. */
   move() {
     this.is_moving = true;
     clearTimeout(this.timer);
@@ -33,14 +33,14 @@ export class Pace {
     }, k_rest);
   }
 
-  /** The next frame is drawn wholly, as for a picture to keep. */
+  /** Draws the next frame with full detail, for a saved picture. */
   rest() {
     clearTimeout(this.timer);
     this.is_moving = false;
     this.is_whole = true;
   }
 
-  /** The level of the next frame of n triangles, n_thin where surfaces are thinned: at rest all of it, unless that takes very long; else the finest that is known to be smooth, or not known yet. */
+  /** Returns the level of the next frame of n triangles, n_thin with thinned surfaces. At rest: full detail, unless that takes very long. Otherwise: the finest level that is known to be smooth or has an unknown duration. */
   level(n, n_thin) {
     if (n > this.size * k_other_size || n * k_other_size < this.size) {
       this.size = n;
@@ -51,14 +51,14 @@ export class Pace {
       return 0;
     }
     const [measured, thin] = this.costs;
-    // What all of it takes was measured once, perhaps while the machine was busy; thinned frames tell of now.
+    // The duration of a full frame was measured once, perhaps while the machine was busy; thinned frames show the present speed.
     const whole = measured === null && thin === null ? (n < k_many ? 0 : Infinity) : Math.min(measured ?? Infinity, thin === null ? Infinity : (thin * n) / n_thin);
     if (!this.is_moving) return whole > k_most_frame && n_thin < n ? 1 : 0;
     const smooth = this.costs.findIndex((cost, level) => (level === 0 ? whole : (cost ?? 0)) <= k_smooth);
     return smooth < 0 ? k_levels.length - 1 : smooth;
   }
 
-  /** Behind the calls that draw a frame: notes how long the graphics card takes for it. One frame at a time is looked at. */
+  /** Measures how long the graphics card takes for a frame, after the drawing calls. One frame at a time is measured. */
   measure(level) {
     if (this.is_waiting) return;
     const { gl } = this;
@@ -73,7 +73,7 @@ export class Pace {
       const is_first = this.costs[level] === null;
       this.costs[level] = cost;
       this.is_waiting = false;
-      if (is_first && level > 0 && !this.is_moving) this.redraw(); // now it is known what all of it takes
+      if (is_first && level > 0 && !this.is_moving) this.redraw(); // now the duration of a full frame is known
       gl.deleteSync(fence);
     };
     setTimeout(look, 0);

@@ -1,14 +1,14 @@
-// The arguments of the script: sliders where they have limits, fields for the rest.
+// The arguments of the script: sliders for arguments with limits, fields for the others.
 import { button, fill, h } from "../dom.js";
 import { ReportError, sentence_of } from "../errors.js";
 import { post } from "./server.js";
 
-/** The value as the command line takes it. */
+/** Returns the value in the form of the command line. */
 function text_of(parameter, value) {
   return typeof value === "number" ? String(Number(value.toPrecision(10))) : String(value);
 }
 
-/** Step of a slider: the script's, else some hundredth of its length that is round. */
+/** Returns the step of a slider: that of the script, else a round value of about a hundredth of the range. */
 function step_of({ step, min, max }) {
   if (typeof step === "number") return step;
   const rough = (max - min) / 200;
@@ -16,7 +16,7 @@ function step_of({ step, min, max }) {
   return [1, 2, 5, 10].map((m) => m * power).find((s) => s >= rough);
 }
 
-/** Sends values one after the other: while one is on its way only the newest waits. */
+/** Sends values one after the other. While one value is on its way, only the latest value waits. */
 class Sender {
   constructor(bench) {
     this.bench = bench;

@@ -1,16 +1,16 @@
-// What lies under the pointer, two picks with the distance between them, and what is picked as Lua.
+// The item under the pointer, two picks with their distance, and the picked item as Lua.
 import { button, count_text, fill, h, number_text, position_text, quantity_text } from "../dom.js";
 import { k_kinds } from "../colours.js";
 
-const k_digits = 3; // of lengths that become options
+const k_digits = 3; // number of digits of lengths that become options
 
-/** Lengths of a triangle's edges in the drawn set. */
+/** Returns the lengths of the edges of a triangle in the drawn set. */
 function edge_lengths(set, t) {
   const [a, b, c] = set.corners(t);
   return [a.distanceTo(b), b.distanceTo(c), c.distanceTo(a)];
 }
 
-/** A rule for the surface mesher of the patch, with the edge length that was picked, or a third of the patch's size. */
+/** Returns a rule of surface_mesh for the patch, with the picked edge length, or a third of the size of the patch. */
 export function lua_of(pick) {
   const key = pick.kind === "model" ? Math.sqrt(Math.max(pick.area, 0)) / 20 : pick.edges.reduce((sum, length) => sum + length, 0) / 3;
   return `patches = { [${JSON.stringify(pick.patch)}] = { max_edge = ${Number(key.toPrecision(k_digits))} } }`;
@@ -45,7 +45,7 @@ export class Picking {
     return { key: found.key, at: found.at, picture: found.picture, item: found.item, kind: scene.kind, patch: patch.name, component: patch.component, role: patch.role, patch_kind: patch.kind, area: patch.area, edges: edge_lengths(set, found.triangle), fields: scene.surface.fields.map((field) => [field, field.values[found.item]]) };
   }
 
-  /** A cell of the cut: the place is on its plane. */
+  /** Describes a picked cell of the cut; the position is on the plane of the cut. */
   describe_cell({ item, at, picture }) {
     const { cut } = this.bench.state.values;
     return { key: null, at, item, picture, kind: "cell", name: k_kinds[cut.kind[item]]?.one ?? "cell", fields: cut.fields.map((field) => [field, field.values[item]]) };
@@ -75,7 +75,7 @@ export class Picking {
     return [h("div", null, h("b", null, pick.name), h("small", null, ` at ${position_text(pick.at)} m`)), h("div.info_values", null, fields), is_kept ? [this.measured(), h("div.buttons.pick_buttons", null, this.place_button(pick))] : null];
   }
 
-  /** The distance, once there are two picks: of surfaces, of cells, of one of each. */
+  /** Returns the distance of two picks, of surfaces, cells, or one of each. */
   measured() {
     const [one, other] = this.picks;
     return other ? this.distance_line(one, other) : null;

@@ -1,4 +1,4 @@
-// The script as it is on disk, with what is wrong at its lines.
+// The script as stored on disk, with error messages at their lines.
 import { fill, h } from "../dom.js";
 import { ReportError } from "../errors.js";
 import { get_script } from "./server.js";
@@ -7,7 +7,7 @@ export function script_tab(bench) {
   const body = h("div", { id: "script_tab" });
   let loaded = "", text = "";
   const lines_of = (news) => {
-    // Messages name the script as it was given; a module's lines are not those of the script.
+    // Messages contain the name of the script as given; lines of a module are not lines of the script.
     const name = news.file;
     const here = new Map();
     for (const problem of news.problems) if (problem.line > 0 && problem.file.endsWith(name)) here.set(problem.line, [...(here.get(problem.line) ?? []), problem.text]);

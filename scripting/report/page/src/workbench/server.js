@@ -1,8 +1,8 @@
-// What the page asks of the program that serves it. Addresses are relative: the secret in front of them stays where it is.
+// Requests to the program that serves the page. Addresses are relative, so the secret in front of them is part of every request.
 import { Arrays, read_cut, read_surface } from "../data.js";
 import { ReportError } from "../errors.js";
 
-/** The text of a refusal, for people. */
+/** Returns the text of a refusal, for the user. */
 async function refusal(response) {
   try {
     return (await response.json()).text ?? `refused (${response.status})`;
@@ -23,7 +23,7 @@ export async function post(name, body) {
   return response;
 }
 
-/** All that is new; waits until there is something. */
+/** Returns the news; waits until there are any. */
 export async function get_state(since, lines, signal) {
   return (await get("state", { since, lines }, signal)).json();
 }
@@ -32,22 +32,22 @@ export async function get_script() {
   return (await (await get("script", {})).json()).text;
 }
 
-/** What inspect{} finds on the surface of that key. */
+/** Returns the findings of inspect{} on the surface with this key. */
 export async function get_inspection(key) {
   return (await post("inspect", { key })).json();
 }
 
-/** Cases of the series that the page is about. */
+/** Returns the cases of the series of the page. */
 export async function get_cases() {
   return (await get("cases", {})).json();
 }
 
-/** Address within the page of a picture that a case has written. */
+/** Returns the address, within the page, of a picture that a case has written. */
 export async function get_picture(picture) {
   return URL.createObjectURL(await (await get("picture", { picture })).blob());
 }
 
-/** JSON and arrays of a block: {json, arrays}. \throws ReportError */
+/** Returns JSON and arrays of a block: {json, arrays}. \throws ReportError */
 function read_block(buffer) {
   if (buffer.byteLength < 8) throw new ReportError("The picture is incomplete.");
   const length = new DataView(buffer).getUint32(0, true);
@@ -56,14 +56,14 @@ function read_block(buffer) {
   return { json, arrays: new Arrays(buffer.slice(8 + length)) };
 }
 
-/** The scene of an object, its surface with arrays. */
+/** Returns the scene of an object, with the arrays of its surface. */
 export async function get_scene(scene) {
   const { json, arrays } = read_block(await (await get("scene", { scene })).arrayBuffer());
   if (json.schema !== "sterna-scene-1") throw new ReportError(`The picture has the schema ${json.schema}.`);
   return { ...json, surface: read_surface(json, arrays) };
 }
 
-/** A cut through the volume mesh of that key. */
+/** Returns a cut through the volume mesh with this key. */
 export async function get_cut(key, plane) {
   const { json, arrays } = read_block(await (await post("cut", { key, plane })).arrayBuffer());
   return read_cut(json, arrays);

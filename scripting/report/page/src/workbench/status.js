@@ -1,4 +1,4 @@
-// The line at the top: which file, what its run does, and the buttons of the whole.
+// The line at the top: the file, the state of its run, and the main buttons.
 import { chip } from "../banner.js";
 import { button, fill, h, percent_text, seconds_text } from "../dom.js";
 import { sentence_of } from "../errors.js";

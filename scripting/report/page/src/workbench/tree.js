@@ -1,10 +1,10 @@
-// What the script made, by the names of its variables: shown or hidden, its components and patches.
+// The objects of the script, by the names of their variables: visible or hidden, with components and patches.
 import { button, h, fill, number_text } from "../dom.js";
 import { patch_css } from "../painting.js";
 
 const k_kinds = { model: "model", component: "part", surface: "surface", envelope: "envelope", tetrahedra: "layer", mesh: "mesh" };
 
-/** Patches by component, in the order of the scene. */
+/** Returns the patches by component, in the order of the scene. */
 function groups_of(scene) {
   const groups = new Map();
   scene.patches.forEach((patch, k) => {
@@ -29,7 +29,7 @@ function angle_text(degrees) {
   return `${number_text(degrees, 3)}\u00b0`;
 }
 
-/** Sections of a wing, frames of a body, control surfaces, with what they measure; a click flies to a section. */
+/** Returns the sections of a wing, frames of a body and control surfaces, with their measures. A click flies to a section. */
 function part_rows(bench, key, part) {
   const rows = (part?.sections ?? []).map((section) => {
     const measures = section.chord !== undefined ? [`chord ${number_text(section.chord, 3)} m`, section.twist ? `twist ${angle_text(section.twist)}` : null, section.airfoil || null] : [`${number_text(section.width, 3)} \u00d7 ${number_text(section.height, 3)} m`];
@@ -62,9 +62,9 @@ function group_rows(bench, key, name, patches, shown) {
 
 export function tree_panel(bench) {
   const list = h("div.tree_list", { id: "tree" });
-  const open = new Set(); // components that are folded out
+  const open = new Set(); // components that are opened
   let drawn = "", names_drawn = "", measures_drawn = "";
-  /** All that the tree says. While a slider moves, measures stay as they were: sketches have none. */
+  /** Returns the whole content of the tree. While a slider moves, the measures stay unchanged, because sketches have none. */
   const signature = () => {
     const chosen = bench.chosen();
     const names = JSON.stringify(chosen?.scene?.patches.map((patch) => [patch.name, patch.component]));
