@@ -32,7 +32,7 @@ constexpr double k_on_edge = 1e-6;         ///< rounding of the areas by which a
 constexpr double k_most_filled = 0.5;      ///< fraction of a region of the fluid that may become solid
 constexpr int k_careful_rounds = 30;       ///< rounds in which one tetrahedron at each location becomes fluid again; later all there
 constexpr int k_most_rounds = 10000;       ///< rounds of repairs; each but the last changes a tetrahedron for good
-constexpr double k_same_place = 1e-6;      ///< over the body length: open boundaries were moved at most this far into their plane
+constexpr double k_same_location = 1e-6;   ///< over the body length: open boundaries were moved at most this far into their plane
 constexpr std::uint32_t k_none = tets::k_none;
 
 Face sorted(Face f) {
@@ -142,7 +142,7 @@ class Filler {
   void require_same_wall() const {
     const double length = body_length(wall_);
     for (const VertexId v : wall_.points.ids())
-      if (is_wall_node_[v.index()] && norm(fluid_.points[v.index()] - wall_.points[v]) > k_same_place * length)
+      if (is_wall_node_[v.index()] && norm(fluid_.points[v.index()] - wall_.points[v]) > k_same_location * length)
         throw Error({.code = ErrorCode::internal,
                      .attempted = "filling crevices",
                      .problem = "vertex " + std::to_string(v.value()) + " of the wall is not at its place in the mesh of the fluid",
@@ -264,7 +264,7 @@ class Filler {
   /// at the fluid, and of these the one with the widest opening.
   bool repair_topology(bool is_careful) {
     bool is_changed = false;
-    for (const std::vector<std::uint32_t>& tets_there : broken_places()) {
+    for (const std::vector<std::uint32_t>& tets_there : broken_locations()) {
       std::uint32_t flattest = k_none, outermost = k_none;
       for (const std::uint32_t t : tets_there) {
         if (is_repair(t) && (flattest == k_none || thickness_[t] < thickness_[flattest])) flattest = t;
@@ -324,7 +324,7 @@ class Filler {
   }
 
   /// Tetrahedra around each edge with more than two faces, then around each vertex whose faces are no single fan.
-  std::vector<std::vector<std::uint32_t>> broken_places() {
+  std::vector<std::vector<std::uint32_t>> broken_locations() {
     std::vector<std::vector<std::uint32_t>> broken;
     for (std::uint32_t v = 0; v < faces_at_.size(); ++v) {
       const std::vector<std::uint32_t>& faces = faces_at_[v];
@@ -419,14 +419,14 @@ class Filler {
                      .attempted = "filling crevices",
                      .problem = number_text(100.0 * sums[1] / sums[0], 3) + " % of a region of the fluid is narrower than the width " +
                                 in_metres(options_.width) + " and would become solid; the limit is " + number_text(100.0 * k_most_filled, 3) + " %",
-                     .places = {{middle_of(region), "fluid of this region"}},
+                     .locations = {{middle_of(region), "fluid of this region"}},
                      .hint = "use a smaller width"});
   }
 
   void find_left(CreviceReport& report) const {
     for (std::uint32_t t = 0; t < state_.size(); ++t) {
       if (state_[t] != State::left) continue;
-      if (report.left.size() < k_max_places) report.left.push_back(middle_of(t));
+      if (report.left.size() < k_max_locations) report.left.push_back(middle_of(t));
       ++report.n_left;
     }
   }
@@ -511,7 +511,7 @@ class Filler {
       const double volume = volume_of(t);
       if (volume > largest || crevice.n_tetrahedra == 0) {
         largest = volume;
-        crevice.place = middle_of(t);
+        crevice.location = middle_of(t);
       }
       crevice.volume += volume;
       if (opening_[t] <= k_rounding * options_.width) crevice.width = std::max(crevice.width, opening_[t]);
@@ -571,7 +571,7 @@ tets::TetMesh fluid_of(const TriMesh& wall, const RunContext& context) {
                   .attempted = "filling crevices",
                   .problem = "the fluid beside the wall has no tetrahedra with all triangles of the wall as faces: " + recovery.failure.problem,
                   .hint = "remesh the wall first"};
-  for (const Vec3& place : recovery.failure.places) error.places.push_back({place, "triangle or edge that is missing"});
+  for (const Vec3& location : recovery.failure.locations) error.locations.push_back({location, "triangle or edge that is missing"});
   throw Error(std::move(error));
 }
 
@@ -596,7 +596,7 @@ std::vector<std::string> to_lines(const CreviceReport& report, std::size_t n) {
     std::string names;
     for (const std::string& name : crevice.patches) names += (names.empty() ? "" : ", ") + name;
     constexpr int k_digits = 3;
-    lines.push_back(format_point(crevice.place) + ": " + std::to_string(crevice.n_tetrahedra) +
+    lines.push_back(format_point(crevice.location) + ": " + std::to_string(crevice.n_tetrahedra) +
                     (crevice.n_tetrahedra == 1 ? " tetrahedron, " : " tetrahedra, ") + number_text(crevice.volume, k_digits) + " m^3, up to " +
                     in_metres(crevice.width, k_digits) + " wide, new triangles at most " + in_metres(crevice.distance, k_digits) +
                     " from the given wall, between " + names);

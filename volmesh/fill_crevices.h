@@ -20,7 +20,7 @@ struct CreviceOptions {
 
 /// A connected region that became solid.
 struct FilledCrevice {
-  Point place;                       ///< m, centre of the largest tetrahedron
+  Point location;                    ///< m, centre of the largest tetrahedron
   Box box;                           ///< m
   double volume = 0.0;               ///< m^3
   double width = 0.0;                ///< m, largest thickness of its tetrahedra
@@ -35,7 +35,7 @@ struct CreviceReport {
   double distance = 0.0;                ///< m, largest of all crevices
   std::int64_t n_triangles_before = 0, n_triangles = 0;
   std::int64_t n_left = 0;  ///< tetrahedra that stay fluid although they are thin: the wall around them would not be manifold, or fluid would be enclosed
-  std::vector<Point> left;  ///< m, centres of the first of these, at most k_max_places
+  std::vector<Point> left;  ///< m, centres of the first of these, at most k_max_locations
 };
 
 struct CreviceResult {

@@ -39,11 +39,11 @@ double Forecast::seconds(int threads) const {
   return (k_seconds_of_triangle * n_triangles + k_seconds_of_tetrahedron * n_tetrahedra) * std::pow(2.0 / threads, k_threads_power);
 }
 
-Forecast forecast_of(const MeshingSite& site) {
-  const TriMesh& wall = site.base.wall;
-  const auto& layers = site.base.demand.layers;
+Forecast forecast_of(const LayerDomain& layer_domain) {
+  const TriMesh& wall = layer_domain.base.wall;
+  const auto& layers = layer_domain.base.demand.layers;
   Forecast forecast{.n_triangles = static_cast<double>(wall.n_triangles())};
-  if (layers.empty()) forecast.n_prisms = forecast.n_triangles * site.options.envelope.layers;
+  if (layers.empty()) forecast.n_prisms = forecast.n_triangles * layer_domain.options.envelope.layers;
   else
     for (const TriangleVertices& t : wall.triangles) forecast.n_prisms += layers[t[0]];
   forecast.n_tetrahedra = k_least_tetrahedra_of_triangle * forecast.n_triangles;

@@ -5,7 +5,7 @@
 
 #include "geom/base/run_context.h"
 #include "volmesh/case/limit_options.h"
-#include "volmesh/site/site.h"
+#include "volmesh/layer_domain/layer_domain.h"
 #include "volmesh/tetra/size_field.h"
 
 namespace sterna::volmesh {
@@ -21,8 +21,8 @@ struct Forecast {
 
 /// Returns the forecast before the envelope is built: cells of the requested layer, and the smallest number of tetrahedra for walls with this number of
 /// triangles.
-/// \pre the options of the site are validated
-Forecast forecast_of(const MeshingSite& site);
+/// \pre the options of the layer domain are validated
+Forecast forecast_of(const LayerDomain& layer_domain);
 /// Returns the number of tetrahedra that a size field requires, computed from its leaves. It includes tetrahedra at the boundary.
 double expected_tetrahedra(const SizeField& sizes);
 

@@ -4,9 +4,9 @@
 #include <utility>
 
 #include "geom/base/error.h"
-#include "volmesh/domain/disc_sheets.h"
+#include "volmesh/adjacent/wall_discs.h"
+#include "volmesh/domain/disc_baffles.h"
 #include "volmesh/layer/lay_out.h"
-#include "volmesh/rims/slits.h"
 #include "volmesh/stages.h"
 #include "volmesh/tetra/preflight.h"
 #include "volmesh/tetra/verify.h"
@@ -25,22 +25,22 @@ void require_same(std::size_t found, std::size_t expected, const std::string& wh
 /// Checks that the layer stands on the wall, and that the mesh contains nothing else except the outer boundary.
 void require_layers_on(const Domain& domain, const HybridMesh& layers) {
   const TriMesh& wall = domain.wall;
-  const bool has_rims = domain.has_rims();
-  require_same(layers.layers.n_lines(), wall.n_vertices() + domain.slit_vertices.size(), "growth lines of the layer");
+  const bool has_borders = domain.has_borders();
+  require_same(layers.layers.n_lines(), wall.n_vertices() + domain.wall_disc_vertices.size(), "growth lines of the layer");
   require_same(layers.layers.n_columns(), wall.n_triangles(), "prism columns of the layer");
   std::size_t n_wrong = 0, n_layer_nodes = 0;
   for (const TriangleId t : wall.triangles.ids())
     for (std::size_t k = 0; k < 3; ++k) n_wrong += layers.layers.base[t.index()][k] != line_under(domain, t, k) ? 1 : 0;
   for (std::uint32_t line = 0; line < layers.layers.n_lines(); ++line) {
-    const VertexId under = line < wall.n_vertices() ? VertexId(line) : domain.slit_vertices[line - wall.n_vertices()];
+    const VertexId under = line < wall.n_vertices() ? VertexId(line) : domain.wall_disc_vertices[line - wall.n_vertices()];
     n_wrong += layers.layers.first_node[line] != n_layer_nodes || layers.points[NodeId(n_layer_nodes)] != wall.points[under] ? 1 : 0;
     n_layer_nodes = layers.layers.top(line).index() + 1;
   }
   for (std::size_t t = wall.n_triangles(); t < layers.boundary_triangles.size(); ++t)
-    for (const NodeId node : layers.boundary_triangles[t].nodes) n_wrong += !has_rims && node.index() < n_layer_nodes ? 1 : 0;
+    for (const NodeId node : layers.boundary_triangles[t].nodes) n_wrong += !has_borders && node.index() < n_layer_nodes ? 1 : 0;
   require_same(n_wrong, 0, "growth lines, columns and outer triangles of the layer that are not on the wall and the outer boundary");
   require_same(
-      layers.prisms.size() + layers.pyramids.size() + layers.hexahedra.size() + layers.tetrahedra.size() + (has_rims ? 0 : layers.boundary_quads.size()), 0,
+      layers.prisms.size() + layers.pyramids.size() + layers.hexahedra.size() + layers.tetrahedra.size() + (has_borders ? 0 : layers.boundary_quads.size()), 0,
       "cells and quadrilaterals outside the prism columns");
 }
 
@@ -60,16 +60,16 @@ LayerKnowledge reprove(const LayerBase& base, Collider& collider, const Domain& 
   filled.layers.layers = std::move(extrusion.layers);
   filled.layers.points.raw() = std::move(extrusion.points);
   filled.layers.request = layer_request(base, envelope_options, filled.envelope.envelope, filled.layers.layers);
-  open_slits(domain, filled.layers.request);
+  open_wall_discs(domain, filled.layers.request);
   ClearProof clear = tested.clear;
-  if (domain.has_rims()) {
+  if (domain.has_borders()) {
     const FillBoundary boundary = boundary_of(filled.layers);
     TetraBoundary for_engines{.points = boundary.points,
                               .triangles = boundary.triangles,
                               .hole_points = {},
                               .patch_names = boundary.patch_names,
                               .triangle_patch = boundary.triangle_patch};
-    for_engines.has_sheets = !options.discs.empty();
+    for_engines.has_baffles = !options.discs.empty();
     const PreflightReport report = preflight(for_engines, {}, context);
     judge(report, for_engines, context);
     clear = report.clear;
@@ -93,8 +93,8 @@ void require_envelope_of(const LayerBase& base, const EnvelopeStage& stage) {
 }
 
 EnvelopeStage make_envelope(const TriMesh& wall, const MeshCase& options, const Makers& makers, const RunContext& context) {
-  MeshingSite site(wall, options, context);
-  return make_envelope(site, makers, context);
+  LayerDomain layer_domain(wall, options, context);
+  return make_envelope(layer_domain, makers, context);
 }
 
 FilledStage make_tetrahedra(const TriMesh& surface, const EnvelopeStage& envelope, const MeshCase& options, const Makers& makers, const RunContext& context) {
@@ -103,14 +103,14 @@ FilledStage make_tetrahedra(const TriMesh& surface, const EnvelopeStage& envelop
 }
 
 VolumeMeshResult finish_mesh(const TriMesh& surface, FilledStage filled, const MeshCase& user_options, const RunContext& context) {
-  const ClosedFans& closed = filled.envelope.closed;
-  const MeshCase options = validated(surface, with_closed_fans(user_options, closed), context);
+  const ClosedMultiNormals& closed = filled.envelope.closed;
+  const MeshCase options = validated(surface, with_closed_multi_normals(user_options, closed), context);
   Domain domain;
   if (filled.split_wall) domain.wall = *filled.split_wall;
-  else domain = domain_around(surface, options, context, closed.feet);
+  else domain = domain_around(surface, options, context, closed.base_vertices);
   require_same(filled.envelope.envelope.height.size(), domain.wall.n_vertices(), "vertices of the envelope");
   require_layers_on(domain, filled.layers);
-  if (!domain.has_rims()) domain.outer = one_sided(outer_of(filled.layers, domain.wall.patches.size()).mesh);
+  if (!domain.has_borders()) domain.outer = one_sided(outer_of(filled.layers, domain.wall.patches.size()).mesh);
   const LayerBase base = base_of(domain, options, context);
   Collider collider(base, &domain.outer, context, &domain.links);
   LayerKnowledge knowledge = reprove(base, collider, domain, filled, options, context);

@@ -11,8 +11,8 @@
 #include "geom/math/constants.h"
 #include "geom/math/measures.h"
 #include "geom/mesh/gates.h"
+#include "volmesh/improve/angle_survey.h"
 #include "volmesh/improve/remaining.h"
-#include "volmesh/improve/survey.h"
 #include "volmesh/tetra/size_supply.h"
 
 namespace sterna::volmesh {
@@ -38,10 +38,10 @@ std::array<std::uint32_t, 3> face_of(const std::array<std::uint32_t, 4>& tet, st
 /// tetrahedra behind them.
 void count_growth(std::span<const Vec3> boundary, const TetraResult& tets, double limit, HardMisses& misses, const RunContext& context) {
   const auto& cells = tets.tetrahedra;
-  const auto place = [&](std::uint32_t v) { return v < boundary.size() ? boundary[v] : tets.new_points[v - boundary.size()]; };
+  const auto location = [&](std::uint32_t v) { return v < boundary.size() ? boundary[v] : tets.new_points[v - boundary.size()]; };
   std::vector<double> volume(cells.size()), largest_at(boundary.size() + tets.new_points.size(), 0.0);
   parallel_for(context, cells.size(),
-               [&](std::size_t t) { volume[t] = tet_volume(place(cells[t][0]), place(cells[t][1]), place(cells[t][2]), place(cells[t][3])); });
+               [&](std::size_t t) { volume[t] = tet_volume(location(cells[t][0]), location(cells[t][1]), location(cells[t][2]), location(cells[t][3])); });
   for (std::size_t t = 0; t < cells.size(); ++t)
     for (const std::uint32_t v : cells[t]) largest_at[v] = std::max(largest_at[v], volume[t]);
   std::vector<SmallFace> small;
@@ -79,7 +79,7 @@ std::string described(const HardMisses& misses) {
 
 bool is_better(const HardMisses& a, const HardMisses& b) { return a.n() != b.n() ? a.n() < b.n() : a.smallest > b.smallest; }
 
-bool may_ask(const SecondEngine& second, const TetraResult& tets, const std::vector<std::string>& failures) {
+bool may_use(const SecondEngine& second, const TetraResult& tets, const std::vector<std::string>& failures) {
   const TetraOptions& options = second.tetrahedra;
   return options.engine == "automatic" && options.try_other_engine && !options.two_pass && !tets.is_two_pass && options.boundary_splits != "always" &&
          std::ranges::all_of(failures, [](const std::string& failure) { return failure.starts_with(k_recovery_failure); });
@@ -99,7 +99,7 @@ std::optional<TetraResult> fill_again(const FillBoundary& boundary, const Second
                        .clear = second.clear,
                        .patch_names = boundary.patch_names,
                        .triangle_patch = boundary.triangle_patch};
-  domain.has_sheets = second.has_sheets;
+  domain.has_baffles = second.has_baffles;
   domain.has_wakes = second.has_wakes;
   SizeSupply sizes(domain, second.sources, second.sizes, context);
   try {
@@ -127,7 +127,7 @@ HardMisses hard_misses(const TetraBoundary& boundary, const TetraResult& tets, c
 
 std::string choose_engine(const FillBoundary& boundary, const SecondEngine& second, const ImproveOptions& options, const std::vector<std::string>& failures,
                           TetraResult& tets, ImproveReport& report, const RunContext& context) {
-  if (!may_ask(second, tets, failures)) return {};
+  if (!may_use(second, tets, failures)) return {};
   const TetraBoundary domain = improved_boundary(boundary);
   const HardMisses first = hard_misses(domain, tets, options, context);
   if (first.n() == 0) return {};

@@ -20,7 +20,7 @@ struct SecondEngine {
   SizeFieldOptions sizes;
   std::vector<Vec3> holes;  ///< these members as in TetraBoundary
   ClearProof clear;
-  bool has_sheets = false;
+  bool has_baffles = false;
   bool has_wakes = false;
 };
 

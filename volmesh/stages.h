@@ -11,25 +11,25 @@
 
 #include "volmesh/envelope/envelope.h"
 #include "volmesh/layer/assemble.h"
+#include "volmesh/layer_domain/layer_domain.h"
 #include "volmesh/second_engine.h"
-#include "volmesh/site/site.h"
 #include "volmesh/tetra/tetra.h"
 #include "volmesh/volume_mesh.h"
 
 namespace sterna::volmesh {
 
-/// Multi-normal fans of opened ridges that had no valid cells (close_fans.h) and stay closed.
-struct ClosedFans {
-  std::vector<VertexId> feet;  ///< ridge base vertices, numbered in the wall with layers before its ridges are opened
-  int n_rounds = 0;            ///< number of rounds in which fans had to be closed; after k_fan_rounds all fans are closed
+/// Multi-normal fans of opened ridges that had no valid cells (close_multi_normals.h) and stay closed.
+struct ClosedMultiNormals {
+  std::vector<VertexId> base_vertices;  ///< ridge base vertices, numbered in the wall with layers before its ridges are opened
+  int n_rounds = 0;                     ///< number of rounds in which fans had to be closed; after k_multi_normal_rounds all fans are closed
 };
-inline constexpr int k_fan_rounds = 5;
+inline constexpr int k_multi_normal_rounds = 5;
 
 /// The envelope of a wall.
 struct EnvelopeStage {
   Envelope envelope;
-  double feature_angle = 0.0;  ///< rad, given by the user or determined automatically
-  ClosedFans closed = {};      ///< fans, with vertex numbers of the envelope's wall
+  double feature_angle = 0.0;      ///< rad, given by the user or determined automatically
+  ClosedMultiNormals closed = {};  ///< fans, with vertex numbers of the envelope's wall
 };
 
 /// The layer below the envelope, and the tetrahedra that an engine made around the layer.
@@ -42,7 +42,7 @@ struct FilledStage {
   std::vector<std::string> tetra_failures;
   std::array<std::int64_t, 5> curving_shares{};  ///< as in Extrusion::curving_shares
   std::int64_t n_split_triangles = 0;
-  NeedleReport needles;    ///< sliver report of the wall, which comes before all other steps
+  SliverReport slivers;    ///< sliver report of the wall, which comes before all other steps
   bool is_opened = false;  ///< ridges are opened or wakes have sheets; finish_mesh() then converts `layers` to cells of the given wall
 };
 
@@ -87,11 +87,11 @@ struct LayerKnowledge {
 FilledStage make_filled(const TriMesh& wall, const MeshCase& options, const Makers& makers, const StageWatch& watch, std::optional<EnvelopeStage> envelope,
                         LayerKnowledge& knowledge, const RunContext& context);
 /// Returns the case with the known state of its ridges. After the largest number of failed rounds no ridge is opened.
-MeshCase with_closed_fans(MeshCase options, const ClosedFans& closed);
-EnvelopeStage make_envelope(MeshingSite& site, const Makers& makers, const RunContext& context);
+MeshCase with_closed_multi_normals(MeshCase options, const ClosedMultiNormals& closed);
+EnvelopeStage make_envelope(LayerDomain& layer_domain, const Makers& makers, const RunContext& context);
 /// Makes the layer below the envelope, which may be lowered for this, and the tetrahedra around the layer. \throws Error(bad_argument) for an envelope of
 /// another size
-FilledStage make_tetrahedra(MeshingSite& site, EnvelopeStage envelope, const Makers& makers, LayerKnowledge& knowledge, const RunContext& context);
+FilledStage make_tetrahedra(LayerDomain& layer_domain, EnvelopeStage envelope, const Makers& makers, LayerKnowledge& knowledge, const RunContext& context);
 /// \throws Error(bad_argument) if an envelope does not have exactly one height for each vertex
 void require_envelope_of(const LayerBase& base, const EnvelopeStage& stage);
 /// \p clear proof for the boundary that the engine will fill

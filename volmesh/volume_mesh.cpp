@@ -13,9 +13,9 @@
 #include "geom/base/sort_unique.h"
 #include "geom/mesh/check_moved.h"
 #include "volmesh/envelope/build_envelope.h"
-#include "volmesh/envelope/periodic.h"
+#include "volmesh/envelope/periodic_growth.h"
 #include "volmesh/forecast.h"
-#include "volmesh/layer/close_fans.h"
+#include "volmesh/layer/close_multi_normals.h"
 #include "volmesh/layer/lay_out.h"
 #include "volmesh/layer/repair_envelope.h"
 #include "volmesh/layer/slide_lines.h"
@@ -59,15 +59,15 @@ TrueSurface true_surface_of(const TrueSurface& of_surface, const Domain& domain)
   };
 }
 
-void tell_needles(const NeedleReport& needles, const NeedleOptions& options, const RunContext& context) {
-  if (needles.has_changed()) context.debug(describe(needles));
-  if (needles.n_left == 0) return;
+void report_slivers(const SliverReport& slivers, const SliverOptions& options, const RunContext& context) {
+  if (slivers.has_changed()) context.debug(describe(slivers));
+  if (slivers.n_left == 0) return;
   std::string hint;
   if (options.needle_budget == 0.0) hint = "; needle_budget = 1 splits the slivers that can be improved";
-  if (needles.is_over_budget) hint = "; a larger needle_budget splits more slivers";
-  context.warn(std::to_string(needles.n_left) + " triangles of the wall have an angle below " +
-               number_text(options.split_needles * 180.0 / std::numbers::pi, 3) + " degrees (slivers" + (needles.has_changed() ? " that are left" : "") +
-               "); the first one is at " + format_point(needles.first_left) + hint);
+  if (slivers.is_over_budget) hint = "; a larger needle_budget splits more slivers";
+  context.warn(std::to_string(slivers.n_left) + " triangles of the wall have an angle below " +
+               number_text(options.split_needles * 180.0 / std::numbers::pi, 3) + " degrees (slivers" + (slivers.has_changed() ? " that are left" : "") +
+               "); the first one is at " + format_point(slivers.first_left) + hint);
 }
 
 TetraBoundary boundary_for_engines(const FillBoundary& boundary, std::span<const Point> holes, ClearProof clear) {
@@ -99,14 +99,14 @@ void refill(const SplitLayer& layer, const MeshCase& options, TetraResult& tets,
 }
 
 /// Takes the first candidate of the engines whose splits can be applied to the layer.
-void climb(const MeshingSite& site, const Envelope& envelope, const Makers& makers, TetraLadder& ladder, Filling& filling, const RunContext& context) {
-  const TrueSurface true_surface = true_surface_of(makers.true_surface, site.domain);
+void climb(const LayerDomain& layer_domain, const Envelope& envelope, const Makers& makers, TetraLadder& ladder, Filling& filling, const RunContext& context) {
+  const TrueSurface true_surface = true_surface_of(makers.true_surface, layer_domain.domain);
   for (;;) {
     filling.tets = ladder.next();
     if (filling.tets.splits.empty()) return;
     try {
-      filling.split = split_layer(site.base, envelope, site.domain.outer, site.options, true_surface, filling.tets, context);
-      if (!filling.split->is_filled) refill(*filling.split, site.options, filling.tets, context);
+      filling.split = split_layer(layer_domain.base, envelope, layer_domain.domain.outer, layer_domain.options, true_surface, filling.tets, context);
+      if (!filling.split->is_filled) refill(*filling.split, layer_domain.options, filling.tets, context);
       return;
     } catch (const Error& error) {
       filling.split.reset();
@@ -116,39 +116,41 @@ void climb(const MeshingSite& site, const Envelope& envelope, const Makers& make
 }
 
 /// Makes the tetrahedra around a layer, and verifies the layer in parallel. \throws FillError
-Filling fill_around(const MeshingSite& site, const Envelope& envelope, const LaidLayer& layer, const Makers& makers, const RunContext& context) {
+Filling fill_around(const LayerDomain& layer_domain, const Envelope& envelope, const LaidLayer& layer, const Makers& makers, const RunContext& context) {
   const StageTimer timer(context, "tetrahedra");
   Filling filling;
   // The boundary must stay unchanged if layers end on other patches, if sides are periodic, if ridges are opened, or if wakes have sheets.
-  const bool may_split = site.base.wall.n_triangles() > 0 && !site.domain.has_rims() && site.domain.periodic.empty() && !site.domain.is_opened();
+  const bool may_split = layer_domain.base.wall.n_triangles() > 0 && !layer_domain.domain.has_borders() && layer_domain.domain.periodic.empty() &&
+                         !layer_domain.domain.is_opened();
   const SplitPermission splits = may_split ? SplitPermission::permitted : SplitPermission::never;
-  filling.holes = find_cavity_points(site.domain.bodies, context);
+  filling.holes = find_cavity_points(layer_domain.domain.bodies, context);
   TetraBoundary domain = boundary_for_engines(layer.boundary, filling.holes, layer.clear);
-  domain.has_sheets = !site.options.discs.empty();
-  domain.has_wakes = !site.domain.sheets.is_empty();
+  domain.has_baffles = !layer_domain.options.discs.empty();
+  domain.has_wakes = !layer_domain.domain.sheets.is_empty();
   const CellCounts cells = count_cells(layer.mesh);
-  Forecast forecast{.n_triangles = static_cast<double>(site.base.wall.n_triangles()), .n_prisms = static_cast<double>(cells.total())};
-  SizeSupply sizes(domain, site.options.sources, site.options.size, context, [&](const SizeField& field, const RunContext& side) {
+  Forecast forecast{.n_triangles = static_cast<double>(layer_domain.base.wall.n_triangles()), .n_prisms = static_cast<double>(cells.total())};
+  SizeSupply sizes(domain, layer_domain.options.sources, layer_domain.options.size, context, [&](const SizeField& field, const RunContext& side) {
     forecast.n_tetrahedra = expected_tetrahedra(field);
-    require_room(forecast, site.options.limits, side);
+    require_room(forecast, layer_domain.options.limits, side);
   });
   const StepEnds ends = step_ends(context.threads());
-  TetraLadder ladder(domain, &sizes, site.options.tetrahedra, splits, context.part("tetrahedra", ends.prisms, ends.tetrahedra));
+  TetraLadder ladder(domain, &sizes, layer_domain.options.tetrahedra, splits, context.part("tetrahedra", ends.prisms, ends.tetrahedra));
   filling.clear = ladder.proof();
   Alongside<LayerProof> proof(context, ladder.begins_here() ? context.threads() : context.threads() - 1, [&sizes, &layer](const RunContext& side) {
     sizes.wait();  // the verification waits, because the engine needs the sizes sooner
     return prove_layer(layer.mesh, side);
   });
-  climb(site, envelope, makers, ladder, filling, context);
+  climb(layer_domain, envelope, makers, ladder, filling, context);
   filling.proof.emplace(std::move(proof).take());
   return filling;
 }
 
 /// Lowers and smooths the envelope after an engine failure. Returns false if nothing can be repaired or the retry limit is reached.
-bool repair_for_engines(MeshingSite& site, Envelope& envelope, const LaidLayer& layer, const FillError& error, const RunContext& context) {
-  if (!site.options.tetrahedra.repair_boundary || !error.is_repeatable()) return false;
-  const bool has_sheets = !site.options.discs.empty();
-  const std::size_t n_changed = repair_envelope(site.base, layer.boundary, has_sheets, error.info().places, site.collider, envelope, context).size();
+bool repair_for_engines(LayerDomain& layer_domain, Envelope& envelope, const LaidLayer& layer, const FillError& error, const RunContext& context) {
+  if (!layer_domain.options.tetrahedra.repair_boundary || !error.is_repeatable()) return false;
+  const bool has_baffles = !layer_domain.options.discs.empty();
+  const std::size_t n_changed =
+      repair_envelope(layer_domain.base, layer.boundary, has_baffles, error.info().locations, layer_domain.collider, envelope, context).size();
   if (n_changed == 0) return false;
   context.warn("trying again with the layer lowered and smoothed at " + std::to_string(n_changed) +
                " vertices around slivers, folds and gaps of the layer top");
@@ -190,25 +192,25 @@ void slide_and_improve(HybridMesh& layers, FillBoundary& boundary, TetraResult& 
       improve_around(domain(), moved, tets, options, report,
                      context.part("slides", k_slides_begin + (1.0 - k_slides_begin) * round / k_slide_rounds, 1.0));  // slides come last in this step
   }
-  if (slider.n_moved() > 0) tell_remaining(domain(), tets, options, report, context);
+  if (slider.n_moved() > 0) report_remaining(domain(), tets, options, report, context);
   sort_unique(slid);
   report.n_slid = static_cast<std::int64_t>(slid.size());
 }
 
 /// Returns the given ridge base vertices, and those up to n_edges away along their ridges; ascending.
-std::vector<VertexId> with_feet_beside(const OpenedRidges& ridges, std::vector<VertexId> feet, int n_edges) {
-  sort_unique(feet);
+std::vector<VertexId> with_neighbouring_bases(const OpenedRidges& ridges, std::vector<VertexId> base_vertices, int n_edges) {
+  sort_unique(base_vertices);
   for (int i = 0; i < n_edges; ++i) {
-    std::vector<VertexId> more = feet;
+    std::vector<VertexId> more = base_vertices;
     for (const auto& quad : ridges.quads) {
-      const VertexId a = ridges.foot[quad[0]], b = ridges.foot[quad[1]];
-      if (std::ranges::binary_search(feet, a)) more.push_back(b);
-      if (std::ranges::binary_search(feet, b)) more.push_back(a);
+      const VertexId a = ridges.base_vertex[quad[0]], b = ridges.base_vertex[quad[1]];
+      if (std::ranges::binary_search(base_vertices, a)) more.push_back(b);
+      if (std::ranges::binary_search(base_vertices, b)) more.push_back(a);
     }
     sort_unique(more);
-    feet.swap(more);
+    base_vertices.swap(more);
   }
-  return feet;
+  return base_vertices;
 }
 
 /// Merges patches of the same name and kind. They are parts of a patch that was split at its corners (split_at_corners).
@@ -241,9 +243,9 @@ void require_valid(const CheckReport& report) {
                                            : "report this surface"};
   for (const auto& [violation, count] : report.counts) {
     info.problem += (info.problem.empty() ? "" : ", ") + std::to_string(count) + " x " + std::string(to_string(violation));
-    info.n_places += count;
+    info.n_locations += count;
   }
-  for (const CheckFinding& finding : report.findings) info.places.push_back({finding.position, finding.what});
+  for (const CheckFinding& finding : report.findings) info.locations.push_back({finding.position, finding.what});
   throw Error(std::move(info));
 }
 
@@ -258,8 +260,8 @@ VolumeMeshResult volume_mesh(const TriMesh& wall, const MeshCase& options, const
   return finish_mesh(std::move(filled), std::move(knowledge), options.improve, context);
 }
 
-MeshCase with_closed_fans(MeshCase options, const ClosedFans& closed) {
-  if (closed.n_rounds < k_fan_rounds) return options;
+MeshCase with_closed_multi_normals(MeshCase options, const ClosedMultiNormals& closed) {
+  if (closed.n_rounds < k_multi_normal_rounds) return options;
   options.ridges.open_ridges = "never";
   for (PatchRule& rule : options.patches) rule.open_ridges = "never";
   return options;
@@ -267,82 +269,84 @@ MeshCase with_closed_fans(MeshCase options, const ClosedFans& closed) {
 
 FilledStage make_filled(const TriMesh& wall, const MeshCase& options, const Makers& makers, const StageWatch& watch, std::optional<EnvelopeStage> made,
                         LayerKnowledge& knowledge, const RunContext& context) {
-  ClosedFans closed = made ? made->closed : ClosedFans{};
+  ClosedMultiNormals closed = made ? made->closed : ClosedMultiNormals{};
   for (;;) {
-    MeshCase now = with_closed_fans(options, closed);
+    MeshCase now = with_closed_multi_normals(options, closed);
     if (made) now.envelope.feature_angle = made->feature_angle;
-    MeshingSite site(wall, now, context, closed.feet);
+    LayerDomain layer_domain(wall, now, context, closed.base_vertices);
     try {
-      const auto make = [&] { return make_envelope(site, makers, context); };
+      const auto make = [&] { return make_envelope(layer_domain, makers, context); };
       EnvelopeStage envelope = made ? std::move(*made) : watch.envelope && closed.n_rounds == 0 ? watch.envelope(make) : make();
       made.reset();  // the given envelope belongs to the wall of this round only
       envelope.closed = closed;
       if (watch.enveloped) watch.enveloped(envelope);
-      return make_tetrahedra(site, std::move(envelope), makers, knowledge, context);
-    } catch (const FanError& error) {
-      const std::vector<VertexId> more = with_feet_beside(site.domain.ridges, error.feet(), 1 << closed.n_rounds);
+      return make_tetrahedra(layer_domain, std::move(envelope), makers, knowledge, context);
+    } catch (const MultiNormalError& error) {
+      const std::vector<VertexId> more = with_neighbouring_bases(layer_domain.domain.ridges, error.base_vertices(), 1 << closed.n_rounds);
       context.warn("ridges stay closed at " + std::to_string(more.size()) + " vertices of the wall: " + error.info().problem +
-                   (error.info().places.empty() ? "" : ", the first at " + format_point(error.info().places.front().position)));
-      closed.feet.insert(closed.feet.end(), more.begin(), more.end());
-      if (++closed.n_rounds == k_fan_rounds)
-        context.warn("ridges stay closed everywhere: after " + std::to_string(k_fan_rounds) + " rounds some multi-normal fans still had invalid cells");
+                   (error.info().locations.empty() ? "" : ", the first at " + format_point(error.info().locations.front().position)));
+      closed.base_vertices.insert(closed.base_vertices.end(), more.begin(), more.end());
+      if (++closed.n_rounds == k_multi_normal_rounds)
+        context.warn("ridges stay closed everywhere: after " + std::to_string(k_multi_normal_rounds) +
+                     " rounds some multi-normal fans still had invalid cells");
     }
   }
 }
 
-EnvelopeStage make_envelope(MeshingSite& site, const Makers& makers, const RunContext& context) {
+EnvelopeStage make_envelope(LayerDomain& layer_domain, const Makers& makers, const RunContext& context) {
   const StageTimer timer(context, "envelope");
   const RunContext part = context.part("envelope", 0.0, step_ends(context.threads()).envelope);
-  require_room(forecast_of(site), site.options.limits, context);
-  tell_needles(site.domain.needles, site.options.needles, context);
-  const std::vector<WholePart> parts = site.domain.slits.empty() && !site.domain.is_opened()
-                                           ? whole_parts(site.domain, site.options.parts, context)
+  require_room(forecast_of(layer_domain), layer_domain.options.limits, context);
+  report_slivers(layer_domain.domain.slivers, layer_domain.options.needles, context);
+  const std::vector<WholePart> parts = layer_domain.domain.wall_discs.empty() && !layer_domain.domain.is_opened()
+                                           ? whole_parts(layer_domain.domain, layer_domain.options.parts, context)
                                            : std::vector<WholePart>{};  // walls that are cut or opened no longer belong to placed parts
   const auto of_wall = [&] {
     const WallEnvelopeMaker& make = makers.wall_envelope;
-    return make ? make(site.base, site.options.envelope, site.collider, part) : build_envelope(site.base, site.options.envelope, site.collider, part);
+    return make ? make(layer_domain.base, layer_domain.options.envelope, layer_domain.collider, part)
+                : build_envelope(layer_domain.base, layer_domain.options.envelope, layer_domain.collider, part);
   };
-  EnvelopeStage stage{parts.empty() ? of_wall() : joint_envelope(site, parts, makers.part_envelope, part), site.options.envelope.feature_angle};
-  equalise_partners(site.base, site.options.envelope, &site.collider, stage.envelope, context);
+  EnvelopeStage stage{parts.empty() ? of_wall() : joint_envelope(layer_domain, parts, makers.part_envelope, part), layer_domain.options.envelope.feature_angle};
+  equalise_partners(layer_domain.base, layer_domain.options.envelope, &layer_domain.collider, stage.envelope, context);
   return stage;
 }
 
-FilledStage make_tetrahedra(MeshingSite& site, EnvelopeStage stage, const Makers& makers, LayerKnowledge& knowledge, const RunContext& context) {
-  require_envelope_of(site.base, stage);
+FilledStage make_tetrahedra(LayerDomain& layer_domain, EnvelopeStage stage, const Makers& makers, LayerKnowledge& knowledge, const RunContext& context) {
+  require_envelope_of(layer_domain.base, stage);
   const StepEnds ends = step_ends(context.threads());
-  LaidLayer layer = lay_out(site, stage.envelope, context.part("prisms", ends.envelope, ends.prisms));
-  std::vector<std::string> told;
-  const auto tell_warnings = [&] {
+  LaidLayer layer = lay_out(layer_domain, stage.envelope, context.part("prisms", ends.envelope, ends.prisms));
+  std::vector<std::string> reported;
+  const auto report_warnings = [&] {
     for (const std::string& warning : layer.report.warnings)
-      if (std::ranges::find(told, warning) == told.end()) context.warn(told.emplace_back(warning));
+      if (std::ranges::find(reported, warning) == reported.end()) context.warn(reported.emplace_back(warning));
   };
-  tell_warnings();
+  report_warnings();
 
   FilledStage filled;
-  filled.needles = site.domain.needles;
+  filled.slivers = layer_domain.domain.slivers;
   Filling filling;
   for (int n_repairs = 0;; ++n_repairs) {
     try {
-      filling = fill_around(site, stage.envelope, layer, makers, context);
+      filling = fill_around(layer_domain, stage.envelope, layer, makers, context);
       break;
     } catch (const FillError& error) {
       filled.tetra_failures.insert(filled.tetra_failures.end(), error.failures().begin(), error.failures().end());
-      if (n_repairs == k_max_boundary_repairs || !repair_for_engines(site, stage.envelope, layer, error, context)) throw;
-      layer = lay_out(site, stage.envelope, context);
+      if (n_repairs == k_max_boundary_repairs || !repair_for_engines(layer_domain, stage.envelope, layer, error, context)) throw;
+      layer = lay_out(layer_domain, stage.envelope, context);
     }
   }
   if (filling.split) {
     filled.n_split_triangles = static_cast<std::int64_t>(filling.split->boundary.triangles.size() - layer.boundary.triangles.size());
-    layer = adopted(*filling.split, layer, site.options.envelope, context);
+    layer = adopted(*filling.split, layer, layer_domain.options.envelope, context);
     filling.proof.emplace(prove_layer(layer.mesh, context));
     filled.split_wall = *filling.split->wall;
     stage.envelope = std::move(filling.split->envelope);
   }
-  tell_warnings();  // these are the warnings of a layer that is no longer the first one
+  report_warnings();  // these are the warnings of a layer that is no longer the first one
   require_proved_cells(filling.proof->cells, layer.certificate);
 
   knowledge = {std::move(layer.report), std::move(layer.certificate), std::move(filling.proof->check), {}, {}};
-  if (!filling.split) knowledge.second = second_engine(site.options, std::move(filling.holes), filling.clear, !site.domain.sheets.is_empty());
+  if (!filling.split) knowledge.second = second_engine(layer_domain.options, std::move(filling.holes), filling.clear, !layer_domain.domain.sheets.is_empty());
   filled.envelope = std::move(stage);
   filled.is_opened = layer.opened.has_value();
   if (filled.is_opened) {
@@ -362,7 +366,7 @@ SecondEngine second_engine(const MeshCase& options, std::vector<Point> holes, Cl
           .sizes = options.size,
           .holes = std::move(holes),
           .clear = clear,
-          .has_sheets = !options.discs.empty(),
+          .has_baffles = !options.discs.empty(),
           .has_wakes = has_wakes};
 }
 
@@ -375,7 +379,7 @@ VolumeMeshResult finish_mesh(FilledStage filled, LayerKnowledge knowledge, const
   result.certificate = knowledge.certificate;
   result.tetra_failures = std::move(filled.tetra_failures);
   result.n_split_triangles = filled.n_split_triangles;
-  result.needles = filled.needles;
+  result.slivers = filled.slivers;
   FillBoundary boundary = knowledge.closed ? std::move(knowledge.boundary) : boundary_of(result.mesh);
   std::vector<std::uint32_t> slid;
   {

@@ -9,7 +9,7 @@
 #include "geom/mesh/hybrid_mesh.h"
 #include "geom/mesh/tri_mesh.h"
 #include "volmesh/case/mesh_case.h"
-#include "volmesh/domain/split_needles.h"
+#include "volmesh/domain/split_slivers.h"
 #include "volmesh/envelope/certificate.h"
 #include "volmesh/improve/improve.h"
 #include "volmesh/layer/layer_report.h"
@@ -27,13 +27,13 @@ struct VolumeMeshResult {
   std::vector<std::string> tetra_failures;  ///< failures of the previous attempts, in order
   std::string tetra_choice;                 ///< text on the comparison and choice of choose_engine(); empty if there was no comparison
   std::int64_t n_split_triangles = 0;       ///< number of triangles of wall and outer boundary that were added, compared with the input
-  NeedleReport needles;                     ///< report of the sliver splitting, which comes before the mesh
+  SliverReport slivers;                     ///< report of the sliver splitting, which comes before the mesh
   bool is_reproducible = true;              ///< false if a time or memory limit affected the result
   double tetra_engine_seconds = 0.0;        ///< time inside the engine alone, for the log only
   double tetra_engine_peak_bytes = 0.0;     ///< for the log only
 };
 
-/// Makes a volume mesh. Steps: farfield, sliver triangles of the wall (split_needles.h), envelope (build_envelope.h), extrusion and repair, certificate,
+/// Makes a volume mesh. Steps: farfield, sliver triangles of the wall (split_slivers.h), envelope (build_envelope.h), extrusion and repair, certificate,
 /// tetrahedra, improvement, assembly, check. If the engine had to split boundary triangles (tetra.h), wall, envelope and farfield of the mesh are split in the
 /// same way (split_layer.h). If all engines fail, the envelope is repaired, and all steps from the extrusion on are repeated (repair_envelope.h), at most 3
 /// times.

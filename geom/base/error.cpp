@@ -5,19 +5,20 @@
 namespace sterna {
 namespace {
 
-constexpr std::size_t k_max_places_in_text = 5;
+constexpr std::size_t k_max_locations_in_text = 5;
 
 std::string compose(const ErrorInfo& info) {
   std::string text = info.attempted;
   if (!text.empty() && !info.problem.empty()) text += ": ";
   text += info.problem;
-  const std::size_t n_shown = std::min(info.places.size(), k_max_places_in_text);
+  const std::size_t n_shown = std::min(info.locations.size(), k_max_locations_in_text);
   for (std::size_t i = 0; i < n_shown; ++i) {
-    text += "\n  at " + format_point(info.places[i].position);
-    if (!info.places[i].what.empty()) text += ": " + info.places[i].what;
+    text += "\n  at " + format_point(info.locations[i].position);
+    if (!info.locations[i].what.empty()) text += ": " + info.locations[i].what;
   }
-  const std::int64_t n_places = std::max<std::int64_t>(info.n_places, static_cast<std::int64_t>(info.places.size()));
-  if (n_places > static_cast<std::int64_t>(n_shown)) text += "\n  and " + std::to_string(n_places - static_cast<std::int64_t>(n_shown)) + " more locations";
+  const std::int64_t n_locations = std::max<std::int64_t>(info.n_locations, static_cast<std::int64_t>(info.locations.size()));
+  if (n_locations > static_cast<std::int64_t>(n_shown))
+    text += "\n  and " + std::to_string(n_locations - static_cast<std::int64_t>(n_shown)) + " more locations";
   if (!info.hint.empty()) text += "\n  try: " + info.hint;
   return text;
 }
@@ -51,20 +52,20 @@ std::string_view to_string(ErrorCode code) {
   return "internal";
 }
 
-void ErrorInfo::add_place(const Vec3& position, std::string what) {
-  ++n_places;
-  if (places.size() < k_max_places) places.push_back({position, std::move(what)});
+void ErrorInfo::add_location(const Vec3& position, std::string what) {
+  ++n_locations;
+  if (locations.size() < k_max_locations) locations.push_back({position, std::move(what)});
 }
 
 Error::Error(ErrorInfo info) : std::runtime_error(compose(info)), info_(std::make_shared<const ErrorInfo>(std::move(info))) {}
 
-std::int64_t Error::n_places() const { return std::max<std::int64_t>(info_->n_places, static_cast<std::int64_t>(info_->places.size())); }
+std::int64_t Error::n_locations() const { return std::max<std::int64_t>(info_->n_locations, static_cast<std::int64_t>(info_->locations.size())); }
 
-void throw_bad_argument(std::string_view attempted, std::string problem, std::vector<ErrorPlace> places, std::string hint) {
+void throw_bad_argument(std::string_view attempted, std::string problem, std::vector<ErrorLocation> locations, std::string hint) {
   throw Error({.code = ErrorCode::bad_argument,
                .attempted = std::string(attempted),
                .problem = std::move(problem),
-               .places = std::move(places),
+               .locations = std::move(locations),
                .hint = std::move(hint)});
 }
 

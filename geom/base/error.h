@@ -42,7 +42,7 @@ enum class ErrorCode {
 std::string_view to_string(ErrorCode code);
 
 /// Location where an error occurred, with a description (patch, entity, value against limit).
-struct ErrorPlace {
+struct ErrorLocation {
   Vec3 position;
   std::string what;
 };
@@ -56,20 +56,20 @@ struct TroubleGeometry {
   bool empty() const { return triangles.empty() && edges.empty() && vertices.empty(); }
 };
 
-inline constexpr std::size_t k_max_places = 10;       ///< maximum number of locations listed in a message
+inline constexpr std::size_t k_max_locations = 10;    ///< maximum number of locations listed in a message
 inline constexpr std::size_t k_max_geometry = 20000;  ///< maximum number of triangles in the geometry of a failure
 
 struct ErrorInfo {
   ErrorCode code = ErrorCode::internal;
-  std::string attempted;           ///< "reading wing.stl", "filling the volume with tetrahedra"
-  std::string problem;             ///< description of the failure: value against its limit, with unit
-  std::vector<ErrorPlace> places;  ///< the first few locations; `n_places` may be larger
-  std::int64_t n_places = 0;       ///< 0: as many as `places`
-  std::string hint;                ///< suggested remedy; may be empty
+  std::string attempted;                 ///< "reading wing.stl", "filling the volume with tetrahedra"
+  std::string problem;                   ///< description of the failure: value against its limit, with unit
+  std::vector<ErrorLocation> locations;  ///< the first few locations; `n_locations` may be larger
+  std::int64_t n_locations = 0;          ///< 0: as many as `locations`
+  std::string hint;                      ///< suggested remedy; may be empty
   TroubleGeometry geometry;
 
-  /// Counts a location and stores it if it is among the first k_max_places.
-  void add_place(const Vec3& position, std::string what);
+  /// Counts a location and stores it if it is among the first k_max_locations.
+  void add_location(const Vec3& position, std::string what);
 };
 
 /// what() returns the complete message: "attempted: problem", then the locations, then the hint.
@@ -78,14 +78,14 @@ class Error : public std::runtime_error {
   explicit Error(ErrorInfo info);
   ErrorCode code() const { return info_->code; }
   const ErrorInfo& info() const { return *info_; }
-  std::int64_t n_places() const;
+  std::int64_t n_locations() const;
 
  private:
   std::shared_ptr<const ErrorInfo> info_;
 };
 
 /// Throws Error(bad_argument); for errors without a location or a more specific code.
-[[noreturn]] void throw_bad_argument(std::string_view attempted, std::string problem, std::vector<ErrorPlace> places = {}, std::string hint = {});
+[[noreturn]] void throw_bad_argument(std::string_view attempted, std::string problem, std::vector<ErrorLocation> locations = {}, std::string hint = {});
 
 /// Returns "(x, y, z)" with 6 significant digits, the format of coordinates in all messages.
 std::string format_point(const Vec3& p);

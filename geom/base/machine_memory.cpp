@@ -12,25 +12,25 @@
 namespace sterna {
 namespace {
 
-constexpr double k_untold = std::numeric_limits<double>::infinity();
+constexpr double k_no_limit_known = std::numeric_limits<double>::infinity();
 
-/// Returns the number after a key in a file of lines "key number ..."; k_untold if there is none.
-double number_of(const std::filesystem::path& path, const std::string& wanted) {
+/// Returns the number after a key in a file of lines "key number ..."; k_no_limit_known if there is none.
+double number_of(const std::filesystem::path& path, const std::string& requested) {
   std::ifstream file(path);
   std::string key, rest;
   double number = 0.0;
   while (file >> key >> number) {
-    if (key == wanted) return number;
+    if (key == requested) return number;
     std::getline(file, rest);
   }
-  return k_untold;
+  return k_no_limit_known;
 }
 
-/// Returns the only number in a file; k_untold for "max", or if there is no such file.
+/// Returns the only number in a file; k_no_limit_known for "max", or if there is no such file.
 double number_of(const std::filesystem::path& path) {
   std::ifstream file(path);
   double number = 0.0;
-  return file >> number ? number : k_untold;
+  return file >> number ? number : k_no_limit_known;
 }
 
 double free_of_kernel() {
@@ -52,22 +52,22 @@ ProcessSize process_size() {
 
 double free_of_address_space() {
   rlimit limit{};
-  if (getrlimit(RLIMIT_AS, &limit) != 0 || limit.rlim_cur == RLIM_INFINITY) return k_untold;
+  if (getrlimit(RLIMIT_AS, &limit) != 0 || limit.rlim_cur == RLIM_INFINITY) return k_no_limit_known;
   return std::max(0.0, static_cast<double>(limit.rlim_cur) - process_size().all);
 }
 
 /// Returns the free memory of the process's control group and the groups around it (version 2 of control groups).
 double free_of_control_group() {
   std::ifstream file("/proc/self/cgroup");
-  double least = k_untold;
+  double least = k_no_limit_known;
   for (std::string line; std::getline(file, line);) {
     if (!line.starts_with("0::/")) continue;
     const std::filesystem::path top = "/sys/fs/cgroup";
     for (std::filesystem::path group = top / line.substr(4);; group = group.parent_path()) {
       const double limit = number_of(group / "memory.max"), used = number_of(group / "memory.current");
-      if (limit != k_untold && used != k_untold) {
+      if (limit != k_no_limit_known && used != k_no_limit_known) {
         const double cache = number_of(group / "memory.stat", "inactive_file");  // released when other processes need memory
-        least = std::min(least, std::max(0.0, limit - used + (cache == k_untold ? 0.0 : cache)));
+        least = std::min(least, std::max(0.0, limit - used + (cache == k_no_limit_known ? 0.0 : cache)));
       }
       if (group == top || !group.has_relative_path()) break;
     }

@@ -46,7 +46,7 @@ std::uint64_t RunContext::seed() const { return state_->settings.seed; }
 const std::filesystem::path& RunContext::dump_directory() const { return state_->settings.dump_directory; }
 std::stop_token RunContext::stop_token() const { return state_->settings.stop; }
 
-void RunContext::tell_if_long() const {
+void RunContext::report_if_long() const {
   if (stage_.empty() || is_beside_) return;
   const std::int64_t now = now_ns(), taken = now - begin_ns_;
   std::int64_t silent_until = state_->silent_until_ns.load(std::memory_order_relaxed);
@@ -58,7 +58,7 @@ void RunContext::tell_if_long() const {
 }
 
 void RunContext::check_stop() const {
-  tell_if_long();
+  report_if_long();
   if (!state_->settings.stop.stop_requested() && !beside_stop_.stop_requested()) return;
   throw Error({.code = ErrorCode::cancelled, .attempted = stage_.empty() ? "run" : stage_, .problem = "stopped on request"});
 }

@@ -82,7 +82,7 @@ class RunContext {
 
  private:
   friend ThreadPool& pool_of(const RunContext& context);
-  void tell_if_long() const;
+  void report_if_long() const;
   std::shared_ptr<State> state_;
   std::shared_ptr<ThreadPool> pool_;  ///< the pool of the state, or a separate pool
   bool is_beside_ = false;

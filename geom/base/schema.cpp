@@ -158,7 +158,7 @@ std::string_view kind_text(OptionKind kind) {
     case OptionKind::boolean: return "true or false";
     case OptionKind::integer: return "a whole number";
     case OptionKind::number: return "a number";
-    case OptionKind::text: return "a string";
+    case OptionKind::string: return "a string";
     case OptionKind::vector: return "{x, y, z}";
     case OptionKind::numbers: return "a list of numbers";
     case OptionKind::vectors: return "a list of points {x, y, z}";
@@ -309,7 +309,7 @@ void set_option_from_text(const Option& option, std::string_view text, BareAngle
     case OptionKind::boolean:
       if (text != "true" && text != "false") reject(option, "\"" + std::string(text) + "\"", "true or false");
       return set_option(option, text == "true");
-    case OptionKind::text: return set_option(option, std::string(text));
+    case OptionKind::string: return set_option(option, std::string(text));
     case OptionKind::integer: {
       if (text == "automatic") return set_option(option, std::string(text));
       std::int64_t number = 0;

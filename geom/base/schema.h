@@ -77,7 +77,7 @@ struct Schema;
 
 /// The value of an option. An enumeration is the name of its enumerator; std::monostate is an optional vector without a value.
 using OptionValue = std::variant<bool, std::int64_t, double, std::string, Vec3, std::vector<double>, std::vector<Vec3>, std::monostate>;
-enum class OptionKind { boolean, integer, number, text, vector, numbers, vectors };
+enum class OptionKind { boolean, integer, number, string, vector, numbers, vectors };
 
 /// Returns "a whole number", "{x, y, z}" and so on, for messages.
 std::string_view kind_text(OptionKind kind);
@@ -122,7 +122,7 @@ constexpr OptionKind kind_of_member() {
   if constexpr (std::is_same_v<M, bool>) return OptionKind::boolean;
   else if constexpr (std::is_same_v<M, int>) return OptionKind::integer;
   else if constexpr (std::is_same_v<M, double>) return OptionKind::number;
-  else if constexpr (std::is_same_v<M, std::string>) return OptionKind::text;
+  else if constexpr (std::is_same_v<M, std::string>) return OptionKind::string;
   else if constexpr (std::is_same_v<M, std::vector<double>>) return OptionKind::numbers;
   else if constexpr (std::is_same_v<M, std::vector<Vec3>>) return OptionKind::vectors;
   else return OptionKind::vector;
@@ -172,7 +172,7 @@ OptionTable options_of(T& instance) {
           T* object = &instance;
           if constexpr (std::is_same_v<Member, EnumMember<T>>) {
             const std::string_view choices = field.choices;
-            option.kind = OptionKind::text;
+            option.kind = OptionKind::string;
             option.default_value = std::string(detail::choice_at(choices, member.get(defaults)));
             option.get = [object, member, choices] { return OptionValue(std::string(detail::choice_at(choices, member.get(*object)))); };
             option.store = [object, member, choices](const OptionValue& v) { member.set(*object, detail::index_of_choice(choices, std::get<std::string>(v))); };

@@ -45,15 +45,15 @@ void mark_inside(Flat& flat) {
 
 FillKernel::Point_3 cgal_point(const Vec3& p) { return {p.x, p.y, p.z}; }
 
-HolePatch fill_by_loop(const HoleRim& rim) {
+HolePatch fill_by_loop(const HoleBorder& border) {
   std::vector<FillKernel::Point_3> loop, third;
   std::map<std::pair<std::uint32_t, std::uint32_t>, std::uint32_t> opposite;
-  for (const auto& t : rim.triangles)
+  for (const auto& t : border.triangles)
     for (std::size_t k = 0; k < 3; ++k) opposite[{t[(k + 1) % 3], t[k]}] = t[(k + 2) % 3];
-  for (std::uint32_t i = 0; i < rim.n_loop; ++i) {
-    loop.push_back(cgal_point(rim.points[i]));
-    const auto found = opposite.find({i, (i + 1) % rim.n_loop});
-    if (found != opposite.end()) third.push_back(cgal_point(rim.points[found->second]));
+  for (std::uint32_t i = 0; i < border.n_loop; ++i) {
+    loop.push_back(cgal_point(border.points[i]));
+    const auto found = opposite.find({i, (i + 1) % border.n_loop});
+    if (found != opposite.end()) third.push_back(cgal_point(border.points[found->second]));
   }
   std::vector<CGAL::Triple<int, int, int>> triangles;
   if (third.size() == loop.size()) CGAL::Polygon_mesh_processing::triangulate_hole_polyline(loop, third, std::back_inserter(triangles));
@@ -64,17 +64,17 @@ HolePatch fill_by_loop(const HoleRim& rim) {
   return patch;
 }
 
-HolePatch fill_smoothly(const HoleRim& rim) {
+HolePatch fill_smoothly(const HoleBorder& border) {
   FillMesh mesh;
   std::vector<FillMesh::Vertex_index> vertex;
-  for (const Vec3& p : rim.points) vertex.push_back(mesh.add_vertex(cgal_point(p)));
-  for (const auto& t : rim.triangles)
+  for (const Vec3& p : border.points) vertex.push_back(mesh.add_vertex(cgal_point(p)));
+  for (const auto& t : border.triangles)
     if (mesh.add_face(vertex[t[0]], vertex[t[1]], vertex[t[2]]) == FillMesh::null_face()) return {};
   const auto hole = mesh.halfedge(vertex[0], vertex[1]);
   if (hole == FillMesh::null_halfedge() || !mesh.is_border(hole)) return {};
   std::uint32_t n_around = 0;
   for (const auto h : CGAL::halfedges_around_face(hole, mesh)) n_around += mesh.is_border(h);
-  if (n_around != rim.n_loop) return {};
+  if (n_around != border.n_loop) return {};
   std::vector<FillMesh::Face_index> faces;
   std::vector<FillMesh::Vertex_index> vertices;
   CGAL::Polygon_mesh_processing::triangulate_refine_and_fair_hole(mesh, hole, std::back_inserter(faces), std::back_inserter(vertices));
@@ -83,7 +83,7 @@ HolePatch fill_smoothly(const HoleRim& rim) {
   for (const auto v : vertices) {
     const auto& p = mesh.point(v);
     if (!std::isfinite(p.x()) || !std::isfinite(p.y()) || !std::isfinite(p.z())) return {};
-    number[static_cast<std::uint32_t>(v)] = rim.n_loop + static_cast<std::uint32_t>(patch.points.size());
+    number[static_cast<std::uint32_t>(v)] = border.n_loop + static_cast<std::uint32_t>(patch.points.size());
     patch.points.push_back({p.x(), p.y(), p.z()});
   }
   for (const auto f : faces) {
@@ -92,7 +92,7 @@ HolePatch fill_smoothly(const HoleRim& rim) {
     for (const auto v : mesh.vertices_around_face(mesh.halfedge(f))) {
       const auto id = static_cast<std::uint32_t>(v);
       const auto found = number.find(id);
-      if (found == number.end() && id >= rim.n_loop) return {};
+      if (found == number.end() && id >= border.n_loop) return {};
       triangle[k++] = found == number.end() ? id : found->second;
     }
     patch.triangles.push_back(triangle);
@@ -117,14 +117,14 @@ HolePatch fill_flat(const std::vector<std::vector<Vec3>>& loops, const Vec3& nor
     Flat flat;
     std::uint32_t number = 0;
     for (const auto& loop : loops) {
-      std::vector<Flat::Vertex_handle> rim;
+      std::vector<Flat::Vertex_handle> border;
       for (const Vec3& p : loop) {
         const std::size_t n_before = flat.number_of_vertices();
-        rim.push_back(flat.insert(flat_point(p)));
+        border.push_back(flat.insert(flat_point(p)));
         if (flat.number_of_vertices() == n_before) return {};  // the loop touches itself
-        rim.back()->info() = number++;
+        border.back()->info() = number++;
       }
-      for (std::size_t i = 0; i < rim.size(); ++i) flat.insert_constraint(rim[i], rim[(i + 1) % rim.size()]);
+      for (std::size_t i = 0; i < border.size(); ++i) flat.insert_constraint(border[i], border[(i + 1) % border.size()]);
     }
     mark_inside(flat);
     for (const auto f : flat.finite_face_handles())
@@ -137,11 +137,11 @@ HolePatch fill_flat(const std::vector<std::vector<Vec3>>& loops, const Vec3& nor
   return patch;
 }
 
-HolePatch fill_curved(const HoleRim& rim, bool is_smooth) {
+HolePatch fill_curved(const HoleBorder& border, bool is_smooth) {
   try {
     HolePatch patch;
-    if (is_smooth && !rim.triangles.empty()) patch = fill_smoothly(rim);
-    if (patch.triangles.empty()) patch = fill_by_loop(rim);
+    if (is_smooth && !border.triangles.empty()) patch = fill_smoothly(border);
+    if (patch.triangles.empty()) patch = fill_by_loop(border);
     return patch;
   } catch (const CGAL::Failure_exception&) {
     return {};  // the caller reports the hole that remains

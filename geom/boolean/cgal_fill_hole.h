@@ -22,7 +22,7 @@ struct HolePatch {
 HolePatch fill_flat(const std::vector<std::vector<Vec3>>& loops, const Vec3& normal);
 
 /// Neighbourhood of the hole: triangles of the surface around it with their own points; the first loop.size() points are those of the loop.
-struct HoleRim {
+struct HoleBorder {
   std::vector<Vec3> points;
   std::uint32_t n_loop = 0;  ///< the hole runs along points 0 -> 1 -> ... -> n_loop - 1 -> 0; surface triangles have those edges reversed
   std::vector<std::array<std::uint32_t, 3>> triangles;  ///< a consistent, manifold neighbourhood, may be empty
@@ -30,6 +30,6 @@ struct HoleRim {
 
 /// Triangulates the loop with minimum area and bending. With `is_smooth`, new points are added with the spacing of the boundary points, and positioned so that
 /// the surface continues without a kink (Liepa 2003, by CGAL). No points are added if the neighbourhood is not manifold. O(n^3) for n loop points.
-HolePatch fill_curved(const HoleRim& rim, bool is_smooth);
+HolePatch fill_curved(const HoleBorder& border, bool is_smooth);
 
 }  // namespace sterna

@@ -25,13 +25,13 @@ void require_closed(const TriMesh& mesh, const Topology& topology, const std::st
   ErrorInfo info{.code = ErrorCode::open_surface,
                  .attempted = std::string(k_parting_attempt),
                  .problem = name + " is open: " + std::to_string(topology.n_boundary_halfedges()) + " edges with one triangle only",
-                 .n_places = static_cast<std::int64_t>(topology.n_boundary_halfedges()),
+                 .n_locations = static_cast<std::int64_t>(topology.n_boundary_halfedges()),
                  .hint = "close the surface; only solids can be united"};
   for (std::uint64_t i = 0; i < topology.n_halfedges(); ++i) {
     const HalfedgeId h(i);
     if (!topology.is_boundary(h)) continue;
     const Point &a = mesh.points[topology.from(h)], &b = mesh.points[topology.to(h)];
-    if (info.places.size() < k_max_places) info.places.push_back({0.5 * (a + b), "open edge of " + name});
+    if (info.locations.size() < k_max_locations) info.locations.push_back({0.5 * (a + b), "open edge of " + name});
     if (info.geometry.edges.size() >= k_max_geometry) break;
     const auto n = static_cast<std::uint32_t>(info.geometry.points.size());
     info.geometry.points.insert(info.geometry.points.end(), {a, b});
@@ -109,7 +109,7 @@ void find_links(SolidParts& all, const RunContext& context) {
                  .attempted = std::string(k_parting_attempt),
                  .problem = all.names[all.facets[own.front()[0]].solid] + " crosses itself: " + std::to_string(own.size()) + " pairs of triangles",
                  .hint = "only different closed components may cross each other; repair this component first"};
-  add_crossing_places(info, all, own);
+  add_crossing_locations(info, all, own);
   throw Error(std::move(info));
 }
 
@@ -152,25 +152,25 @@ double volume_of(const std::vector<Vec3>& points, const std::vector<std::array<s
   return volume.value();
 }
 
-void add_crossing_places(ErrorInfo& info, const SolidParts& parts, const std::vector<std::array<std::uint32_t, 2>>& crossings) {
+void add_crossing_locations(ErrorInfo& info, const SolidParts& parts, const std::vector<std::array<std::uint32_t, 2>>& crossings) {
   // Index of each facet (by tag) in its solid.
-  std::vector<std::uint32_t> place_in_solid(parts.facets.size());
+  std::vector<std::uint32_t> location_in_solid(parts.facets.size());
   for (const Solid& solid : parts.solids)
-    for (std::uint32_t i = 0; i < solid.surface.tag.size(); ++i) place_in_solid[solid.surface.tag[i]] = i;
+    for (std::uint32_t i = 0; i < solid.surface.tag.size(); ++i) location_in_solid[solid.surface.tag[i]] = i;
   const auto corners_of = [&](std::uint32_t tag) {
     const TaggedSolid& surface = parts.solids[parts.facets[tag].solid].surface;
-    const auto& v = surface.triangles[place_in_solid[tag]];
+    const auto& v = surface.triangles[location_in_solid[tag]];
     return std::array<Vec3, 3>{surface.points[v[0]], surface.points[v[1]], surface.points[v[2]]};
   };
-  info.n_places = static_cast<std::int64_t>(crossings.size());
+  info.n_locations = static_cast<std::int64_t>(crossings.size());
   std::set<std::uint32_t> shown;  // one location per facet, so that the list is not filled by a single one
   for (const auto& pair : crossings) {
     const std::uint32_t smaller = parts.facets[pair[0]].length.longest <= parts.facets[pair[1]].length.longest ? pair[0] : pair[1];
     const auto c = corners_of(smaller);
     const std::uint32_t one = parts.facets[pair[0]].solid, other = parts.facets[pair[1]].solid;
-    if (info.places.size() < k_max_places && !shown.contains(pair[0]) && shown.insert(smaller).second) {
+    if (info.locations.size() < k_max_locations && !shown.contains(pair[0]) && shown.insert(smaller).second) {
       shown.insert(pair[0]);
-      info.places.push_back(
+      info.locations.push_back(
           {(c[0] + c[1] + c[2]) / 3.0, one == other ? "triangles of " + short_name(parts, one) : short_name(parts, one) + " and " + short_name(parts, other)});
     }
     if (info.geometry.triangles.size() >= k_max_geometry) break;

@@ -40,7 +40,7 @@ struct SolidParts {
 SolidParts find_solids(const std::vector<UnionPart>& parts, UnionReport& report, const RunContext& context);
 
 /// Adds the locations of some of the crossings, and their triangles as geometry, to an error's info.
-void add_crossing_places(ErrorInfo& info, const SolidParts& parts, const std::vector<std::array<std::uint32_t, 2>>& crossings);
+void add_crossing_locations(ErrorInfo& info, const SolidParts& parts, const std::vector<std::array<std::uint32_t, 2>>& crossings);
 
 /// Returns the signed volume, m^3.
 double volume_of(const std::vector<Vec3>& points, const std::vector<std::array<std::uint32_t, 3>>& triangles);

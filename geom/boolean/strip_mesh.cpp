@@ -232,7 +232,7 @@ bool StripMesh::is_way_along_kept_edges(std::uint32_t from, std::uint32_t to, do
 bool StripMesh::collapse(std::uint32_t from, std::uint32_t to, const CollapseLimits& limits) {
   const auto left = triangle_at(from, to), right = triangle_at(to, from);
   if (!left || !right) return false;
-  const bool is_merge = limits.is_one_place || distance(points[from], points[to]) < limits.merge;
+  const bool is_merge = limits.is_one_location || distance(points[from], points[to]) < limits.merge;
   if (!is_merge && !is_way_along_kept_edges(from, to, limits.tolerance)) return false;
   // Link condition: only the two triangles vanish, and the surface remains a closed manifold.
   const std::vector<std::uint32_t> around_from = neighbours(from), around_to = neighbours(to);

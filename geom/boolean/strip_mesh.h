@@ -57,11 +57,11 @@ struct StripLimits {
 
 /// Limits of a collapse.
 struct CollapseLimits {
-  double least_angle = 0.0;   ///< rad; no triangle may get a smaller angle, unless the smallest angle of the changed triangles increases
-  double longest = 0.0;       ///< m; limit of new edges
-  double tolerance = 0.0;     ///< m; largest distance from the reference, and of kept lines from their original position
-  double merge = 0.0;         ///< m; two vertices nearer than this may be merged, even if kept lines or angles would prevent it
-  bool is_one_place = false;  ///< the caller has verified that the two vertices may be joined as if they were nearer than `merge`
+  double least_angle = 0.0;      ///< rad; no triangle may get a smaller angle, unless the smallest angle of the changed triangles increases
+  double longest = 0.0;          ///< m; limit of new edges
+  double tolerance = 0.0;        ///< m; largest distance from the reference, and of kept lines from their original position
+  double merge = 0.0;            ///< m; two vertices nearer than this may be merged, even if kept lines or angles would prevent it
+  bool is_one_location = false;  ///< the caller has verified that the two vertices may be joined as if they were nearer than `merge`
 };
 
 /// Mesh with local operations. Vertices and triangles are never renumbered; removed ones leave unused slots.

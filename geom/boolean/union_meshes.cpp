@@ -65,7 +65,7 @@ void append(TaggedSolid& all, const TaggedSolid& more) {
                  .attempted = std::string(k_attempted),
                  .problem = parts.names[failed] + " and " + partner + " cannot be united: " + refused.reason,
                  .hint = "move one of the two solids so that they overlap clearly or are clearly apart"};
-  add_crossing_places(info, parts, pairs);
+  add_crossing_locations(info, parts, pairs);
   throw Error(std::move(info));
 }
 
@@ -250,7 +250,7 @@ void require_free_of_crossings(const TriMesh& mesh, const RunContext& context) {
       .code = ErrorCode::self_intersection,
       .attempted = std::string(k_attempted),
       .problem = "after rounding to doubles " + std::to_string(crossings.total) + " pairs of triangles of the result cross or touch",
-      .n_places = crossings.total,
+      .n_locations = crossings.total,
       .hint = "parts that nearly touch, or nearly share a face, cannot be separated there: move them so that they overlap clearly or are clearly apart"};
   for (const auto& pair : crossings.pairs) {
     std::vector<std::array<Vec3, 3>> both;
@@ -260,8 +260,8 @@ void require_free_of_crossings(const TriMesh& mesh, const RunContext& context) {
                                 bounding_box({.points = {both[1][0], both[1][1], both[1][2]}}).longest_side()
                             ? both[0]
                             : both[1];
-    if (info.places.size() < k_max_places)
-      info.places.push_back({(small[0] + small[1] + small[2]) / 3.0, "patches " + name(pair[0]) + " and " + name(pair[1])});
+    if (info.locations.size() < k_max_locations)
+      info.locations.push_back({(small[0] + small[1] + small[2]) / 3.0, "patches " + name(pair[0]) + " and " + name(pair[1])});
     for (const auto& c : both) {
       const auto n = static_cast<std::uint32_t>(info.geometry.points.size());
       info.geometry.points.insert(info.geometry.points.end(), c.begin(), c.end());

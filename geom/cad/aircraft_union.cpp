@@ -61,15 +61,15 @@ std::vector<Model> split_solids(const Model& components) {
   ErrorInfo info{.code = ErrorCode::open_surface, .attempted = k_aircraft_attempt, .hint = "close the solids first: only closed solids can be united"};
   for (const FaceId f : components.faces.ids()) {
     if (!is_loose[f.index()]) continue;
-    ++info.n_places;
+    ++info.n_locations;
     const ModelFace& face = components.faces[f];
     const EdgeUse& use = face.borders.front().front();
     const Interval range = components.edges[use.edge].range;
-    if (info.places.size() < k_max_places)
-      info.places.push_back({face.surface->point(use.parameter->point(0.5 * (range.from + range.to))), "\"" + face.name + "\""});
+    if (info.locations.size() < k_max_locations)
+      info.locations.push_back({face.surface->point(use.parameter->point(0.5 * (range.from + range.to))), "\"" + face.name + "\""});
   }
-  if (info.n_places == 0) return parts;
-  info.problem = std::to_string(info.n_places) + " faces belong to no solid";
+  if (info.n_locations == 0) return parts;
+  info.problem = std::to_string(info.n_locations) + " faces belong to no solid";
   throw Error(std::move(info));
 }
 

@@ -17,13 +17,13 @@ bool is_closed_model(const Model& model) {
   return !model.solids.empty() && std::all_of(model.solids.begin(), model.solids.end(), [](const ModelSolid& s) { return s.is_closed; });
 }
 
-std::vector<ErrorPlace> open_places(const Model& model) {
-  std::vector<ErrorPlace> places;
+std::vector<ErrorLocation> open_locations(const Model& model) {
+  std::vector<ErrorLocation> locations;
   for (const EdgeId e : free_edges(model)) {
     const ModelEdge& edge = model.edges[e];
-    places.push_back({edge.curve->point(0.5 * (edge.range.from + edge.range.to)), "open edge"});
+    locations.push_back({edge.curve->point(0.5 * (edge.range.from + edge.range.to)), "open edge"});
   }
-  return places;
+  return locations;
 }
 
 BooleanPart boolean_part(const Model& model, const std::string& attempted, const RunContext& context) {
@@ -33,9 +33,9 @@ BooleanPart boolean_part(const Model& model, const std::string& attempted, const
                    .attempted = attempted,
                    .problem = "\"" + part.name() + "\" is not closed",
                    .hint = "close the part first: booleans need closed parts"};
-    info.places = open_places(model);
-    info.n_places = static_cast<std::int64_t>(info.places.size());
-    info.places.resize(std::min(k_max_places, info.places.size()));
+    info.locations = open_locations(model);
+    info.n_locations = static_cast<std::int64_t>(info.locations.size());
+    info.locations.resize(std::min(k_max_locations, info.locations.size()));
     throw Error(std::move(info));
   }
   for (const SolidId solid : model.solids.ids()) {
@@ -84,10 +84,10 @@ std::string restore_origins(Model& model, const FaceOrigins& origins, std::span<
     face.role = from.role;
     face.kind = from.kind;
     model.components[face.component].kind = part.components[from.component].kind;
-    TopLoc_Location place, from_place;
-    const Handle(Geom_Surface) surface = BRep_Tool::Surface(content.faces[f.index()], place);
-    const Handle(Geom_Surface) from_surface = BRep_Tool::Surface(parts[origin->part].shape->content().faces[origin->face.index()], from_place);
-    if (surface == from_surface && place.IsEqual(from_place)) face.surface = from.surface;
+    TopLoc_Location location, from_location;
+    const Handle(Geom_Surface) surface = BRep_Tool::Surface(content.faces[f.index()], location);
+    const Handle(Geom_Surface) from_surface = BRep_Tool::Surface(parts[origin->part].shape->content().faces[origin->face.index()], from_location);
+    if (surface == from_surface && location.IsEqual(from_location)) face.surface = from.surface;
     of_face.push_back(*origin);
   }
   for (ModelSolid& solid : model.solids) {  // a separate body is named after its own component

@@ -45,7 +45,7 @@ LabelledShape labelled(const TopoDS_Shape& shape, const FaceOrigins& origins, st
 std::string restore_origins(Model& model, const FaceOrigins& origins, std::span<const BooleanPart> parts, std::vector<FaceOrigin>& of_face);
 
 /// Returns the midpoints of the free edges.
-std::vector<ErrorPlace> open_places(const Model& model);
+std::vector<ErrorLocation> open_locations(const Model& model);
 
 /// Returns true if there is at least one solid and all solids are closed.
 bool is_closed_model(const Model& model);

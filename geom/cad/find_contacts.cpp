@@ -70,22 +70,22 @@ struct Skin {
 double area_of(const Facet& f) { return 0.5 * norm(cross(f[1] - f[0], f[2] - f[0])); }
 
 void add_face(Skin& skin, FaceId id, const TopoDS_Face& face) {
-  TopLoc_Location place;
-  const Handle(Poly_Triangulation)& triangles = BRep_Tool::Triangulation(face, place);
+  TopLoc_Location location;
+  const Handle(Poly_Triangulation)& triangles = BRep_Tool::Triangulation(face, location);
   const ModelFace& from = skin.model->faces[id];
   if (triangles.IsNull() || !triangles->HasUVNodes()) {
-    const Point at = place_of(face);
+    const Point at = location_of(face);
     throw Error({.code = ErrorCode::geometry_failed,
                  .attempted = "finding the contacts of \"" + part_name(*skin.model) + "\"",
                  .problem = "OpenCASCADE cannot triangulate a face",
-                 .places = {{at, "\"" + from.name + "\""}},
+                 .locations = {{at, "\"" + from.name + "\""}},
                  .hint = "draw the face again in CAD, or leave its part out of the union; if memory is limited (ulimit -v), allow more"});
   }
   const auto first = static_cast<std::uint64_t>(skin.mesh.points.size());
   for (int i = 1; i <= triangles->NbNodes(); ++i) {
     const gp_Pnt2d at = triangles->UVNode(i);
     skin.at.push_back({at.X(), at.Y()});
-    const gp_Pnt p = triangles->Node(i).Transformed(place.Transformation());
+    const gp_Pnt p = triangles->Node(i).Transformed(location.Transformation());
     skin.mesh.points.push_back({p.X(), p.Y(), p.Z()});
   }
   skin.triangle_at.resize(skin.at.size());
@@ -151,7 +151,7 @@ std::optional<Vec3> normal_at(const Skin& skin, std::uint32_t t, const Point& p)
 }
 
 /// Returns the centre of the intersection of two crossing triangles, estimated from the piercing edges.
-Point common_place(const Facet& a, const Facet& b) {
+Point common_location(const Facet& a, const Facet& b) {
   Point sum;
   int n = 0;
   const auto add = [&](const Facet& edges, const Facet& plane) {
@@ -176,7 +176,7 @@ struct Flattest {
   bool is_found = false;  ///< at least one crossing exists
   double angle = 0.5 * std::numbers::pi;
   bool is_crevice = false;
-  Point place;
+  Point location;
   void add(const Flattest& other) {
     if (other.is_found && (!is_found || other.angle < angle)) *this = other;
   }
@@ -193,9 +193,9 @@ Flattest crossings(const Skin& a, const Skin& b, const RunContext& context) {
           b.tree->boxes().for_each_overlap(box_of(facet), [&](std::uint32_t s) {
             const Facet other = b.facet(s);
             if (!triangles_intersect(facet, other)) return true;
-            const Point place = common_place(facet, other);
-            const std::optional<Vec3> n = normal_at(a, t, place), m = normal_at(b, s, place);
-            Flattest here{.is_found = true, .place = place};
+            const Point location = common_location(facet, other);
+            const std::optional<Vec3> n = normal_at(a, t, location), m = normal_at(b, s, location);
+            Flattest here{.is_found = true, .location = location};
             if (n && m) {
               const double between = angle_between(*n, *m);
               here.is_crevice = between > 0.5 * std::numbers::pi;
@@ -346,7 +346,7 @@ ParameterBox box_of_face(const Skin& skin, FaceId face) {
 }
 
 /// Finds the nearest points of two parts: first among the corners of the triangles, then by alternating projections between the surfaces.
-Nearest nearest_places(const Skin& a, const Skin& b, double limit, const RunContext& context) {
+Nearest nearest_locations(const Skin& a, const Skin& b, double limit, const RunContext& context) {
   Nearest best;
   const auto look = [&](const Skin& from, const Skin& to, bool is_swapped) {
     for (const VertexId v : from.mesh.points.ids()) {
@@ -364,13 +364,13 @@ Nearest nearest_places(const Skin& a, const Skin& b, double limit, const RunCont
   if (!std::isfinite(best.distance)) return best;
   const FaceId face_a = a.face_of[best.triangle_a], face_b = b.face_of[best.triangle_b];
   const SurfaceProjector on_a(a.model->faces[face_a].surface, box_of_face(a, face_a)), on_b(b.model->faces[face_b].surface, box_of_face(b, face_b));
-  SurfaceFoot foot_a{parameters(a, best.triangle_a, best.a), best.a, 0.0}, foot_b{parameters(b, best.triangle_b, best.b), best.b, 0.0};
+  SurfaceProjection projection_a{parameters(a, best.triangle_a, best.a), best.a, 0.0}, projection_b{parameters(b, best.triangle_b, best.b), best.b, 0.0};
   for (int i = 0; i < k_rounds; ++i) {
-    foot_b = on_b.seeded(foot_a.point, foot_b.at);
-    foot_a = on_a.seeded(foot_b.point, foot_a.at);
+    projection_b = on_b.seeded(projection_a.point, projection_b.at);
+    projection_a = on_a.seeded(projection_b.point, projection_a.at);
   }
-  best.a = foot_a.point;
-  best.b = foot_b.point;
+  best.a = projection_a.point;
+  best.b = projection_b.point;
   best.distance = distance(best.a, best.b);
   return best;
 }
@@ -382,15 +382,15 @@ std::optional<PartContact> contact_of(const std::vector<Skin>& skins, std::size_
   if (!overlap(widened(a.box, reach), b.box)) return std::nullopt;
   PartContact contact{.first = i, .second = j};
   if (const Flattest flattest = crossings(a, b, context); flattest.is_found) {
-    contact.place = flattest.place;
+    contact.location = flattest.location;
     contact.angle = flattest.angle;
     contact.is_crevice = flattest.is_crevice;
     return contact;
   }
   const double touch = k_touch * std::max(a.deflection, b.deflection) / k_deflection;
-  if (const Nearest nearest = nearest_places(a, b, reach, context); nearest.distance <= touch) {
+  if (const Nearest nearest = nearest_locations(a, b, reach, context); nearest.distance <= touch) {
     contact.kind = ContactKind::touching;
-    contact.place = 0.5 * (nearest.a + nearest.b);
+    contact.location = 0.5 * (nearest.a + nearest.b);
     return contact;
   }
   for (const bool is_swapped : {false, true}) {
@@ -398,7 +398,7 @@ std::optional<PartContact> contact_of(const std::vector<Skin>& skins, std::size_
     const Point p = inner.facet(0)[0];
     if (outer.tree->winding_number(p) <= 0.5) continue;
     contact.kind = ContactKind::inside;
-    contact.place = p;
+    contact.location = p;
     if (is_swapped) std::swap(contact.first, contact.second);
     return contact;
   }
@@ -429,12 +429,12 @@ void add_gaps(const std::vector<Skin>& skins, std::vector<PartContact>& contacts
     for (std::size_t i = 0; i < skins.size(); ++i)
       for (std::size_t j = 0; j < skins.size() && group[i] == *apart; ++j) {
         if (group[j] == *apart) continue;
-        const Nearest nearest = nearest_places(skins[i], skins[j], contact.gap, context);
+        const Nearest nearest = nearest_locations(skins[i], skins[j], contact.gap, context);
         if (nearest.distance >= contact.gap) continue;
         contact.first = i;
         contact.second = j;
         contact.gap = nearest.distance;
-        contact.place = 0.5 * (nearest.a + nearest.b);
+        contact.location = 0.5 * (nearest.a + nearest.b);
       }
     contacts.push_back(contact);
   }

@@ -22,7 +22,7 @@ std::string_view to_string(ContactKind kind);
 struct PartContact {
   std::size_t first = 0, second = 0;  ///< numbers of the parts; for `inside`, `first` lies in `second`; for `apart`, `first` is in the smaller group
   ContactKind kind = ContactKind::crossing;
-  Point place;         ///< location of the smallest angle (crossing), a point of `first` (inside), or the location of the smallest distance (other contacts)
+  Point location;      ///< location of the smallest angle (crossing), a point of `first` (inside), or the location of the smallest distance (other contacts)
   double angle = 0.0;  ///< crossing: smallest angle between the tangent planes, radians
   bool is_crevice = false;       ///< for a crossing: true if the fluid is in the narrow angle between the surfaces, false if they blend into each other
   double gap = 0.0;              ///< apart: smallest distance, metres
@@ -59,9 +59,9 @@ struct Overhang {
   std::string component;
   ComponentKind kind = ComponentKind::unknown;
   std::string face;       ///< name of the body's faces
-  std::string wall;       ///< name of the container's face beyond which `place` lies
-  Point place;            ///< point that is farthest outside
-  double distance = 0.0;  ///< distance of `place` from the container, metres
+  std::string wall;       ///< name of the container's face beyond which `location` lies
+  Point location;         ///< point that is farthest outside
+  double distance = 0.0;  ///< distance of `location` from the container, metres
 };
 
 /// Finds the overhangs of all bodies that extend out of the container by more than 1e-4 of the body's longest side (a body that stands on a wall does not),

@@ -22,10 +22,10 @@ constexpr const char* k_fluid_attempt = "subtracting the bodies from their conta
 /// A body with a smaller fraction of its area inside only touches the container from outside, to the accuracy of the samples.
 constexpr double k_least_inside = 1e-3;
 
-[[noreturn]] void fail_fluid(ErrorCode code, const std::string& problem, std::vector<ErrorPlace> places, const std::string& hint) {
-  ErrorInfo info{.code = code, .attempted = k_fluid_attempt, .problem = problem, .places = std::move(places), .hint = hint};
-  info.n_places = static_cast<std::int64_t>(info.places.size());
-  info.places.resize(std::min(k_max_places, info.places.size()));
+[[noreturn]] void fail_fluid(ErrorCode code, const std::string& problem, std::vector<ErrorLocation> locations, const std::string& hint) {
+  ErrorInfo info{.code = code, .attempted = k_fluid_attempt, .problem = problem, .locations = std::move(locations), .hint = hint};
+  info.n_locations = static_cast<std::int64_t>(info.locations.size());
+  info.locations.resize(std::min(k_max_locations, info.locations.size()));
   throw Error(std::move(info));
 }
 
@@ -48,7 +48,7 @@ struct Meeting {
 Meeting look_at(const std::vector<Model>& parts, FluidReport& report, const RunContext& context) {
   const StageTimer timer(context, "fluid/contacts");
   Meeting meeting{.cut = {}, .inside = {}, .contacts = find_contacts(parts, context)};
-  std::vector<ErrorPlace> outside;
+  std::vector<ErrorLocation> outside;
   for (std::size_t i = 1; i < parts.size(); ++i) {
     const PartContact* contact = nullptr;
     for (const PartContact& c : meeting.contacts.contacts)
@@ -56,15 +56,15 @@ Meeting look_at(const std::vector<Model>& parts, FluidReport& report, const RunC
     const std::string name = "\"" + part_name(parts[i]) + "\"";
     if (contact && contact->kind == ContactKind::inside && contact->first == 0)
       fail_fluid(ErrorCode::bad_argument, name + " fills the container \"" + part_name(parts[0]) + "\"",
-                 {{contact->place, "the container lies inside " + name}}, "no volume is left for the fluid: scale or move the bodies or the container");
+                 {{contact->location, "the container lies inside " + name}}, "no volume is left for the fluid: scale or move the bodies or the container");
     const double share_inside = 1.0 - meeting.contacts.exposures[i].outside;
     const bool is_outside = !contact || contact->kind == ContactKind::apart || share_inside < k_least_inside;
-    if (is_outside) outside.push_back({contact ? contact->place : parts[i].corners.raw().front().point, name + " lies outside"});
+    if (is_outside) outside.push_back({contact ? contact->location : parts[i].corners.raw().front().point, name + " lies outside"});
     else if (contact->kind == ContactKind::inside) meeting.inside.push_back(i);
     else meeting.cut.push_back(i);
     if (!contact || contact->kind != ContactKind::crossing || contact->angle >= k_tangent_angle) continue;
-    report.doubts.push_back({contact->place, name + " and \"" + part_name(parts[0]) + "\" are nearly tangent where they cross"});
-    context.warn("fluid: " + report.doubts.back().what + ", at " + format_point(contact->place));
+    report.doubts.push_back({contact->location, name + " and \"" + part_name(parts[0]) + "\" are nearly tangent where they cross"});
+    context.warn("fluid: " + report.doubts.back().what + ", at " + format_point(contact->location));
   }
   if (!outside.empty())
     fail_fluid(
@@ -90,13 +90,13 @@ void require_leave(const std::vector<Model>& parts, const Meeting& meeting, cons
   }
   if (worst.empty()) return;
   std::ranges::stable_sort(worst, std::greater(), &Overhang::distance);
-  std::vector<ErrorPlace> places;
+  std::vector<ErrorLocation> locations;
   for (const Overhang& o : worst)
-    places.push_back({o.place, "\"" + o.component + "\"" + (o.face == o.component ? "" : " (face \"" + o.face + "\")") + " reaches " + number_text(o.distance) +
-                                   " m out of the wall \"" + o.wall + "\""});
-  const std::string problem =
-      places.front().what + " and would be cut off there" + (worst.size() > 1 ? "; so would " + std::to_string(worst.size() - 1) + " more of its parts" : "");
-  fail_fluid(ErrorCode::bad_argument, problem, std::move(places),
+    locations.push_back({o.location, "\"" + o.component + "\"" + (o.face == o.component ? "" : " (face \"" + o.face + "\")") + " reaches " +
+                                         number_text(o.distance) + " m out of the wall \"" + o.wall + "\""});
+  const std::string problem = locations.front().what + " and would be cut off there" +
+                              (worst.size() > 1 ? "; so would " + std::to_string(worst.size() - 1) + " more of its parts" : "");
+  fail_fluid(ErrorCode::bad_argument, problem, std::move(locations),
              "move the model, or make the tunnel larger. Declare parts that pass through a wall (a sting, a strut, a wing on a side wall): test_section{ ..., "
              "through = { \"" +
                  worst.front().component + "\" } }; stings made by sting{} need no declaration");
@@ -128,14 +128,15 @@ void judge_cut(const std::vector<BooleanPart>& parts, BooleanTry& result, const 
 }
 
 /// Returns one corner per solid, on a face from a body if there is one, else on any face.
-std::vector<ErrorPlace> pieces_of(const Model& model, const std::vector<SolidMeasures>& measures) {
-  std::vector<ErrorPlace> places;
+std::vector<ErrorLocation> pieces_of(const Model& model, const std::vector<SolidMeasures>& measures) {
+  std::vector<ErrorLocation> locations;
   for (const SolidId s : model.solids.ids()) {
     const ModelFace& face = model.faces[model.solids[s].faces.front()];
     const ModelEdge& edge = model.edges[face.borders.front().front().edge];
-    places.push_back({model.corners[edge.start].point, "fluid region of " + number_text(measures[s.index()].volume) + " m^3, at face \"" + face.name + "\""});
+    locations.push_back(
+        {model.corners[edge.start].point, "fluid region of " + number_text(measures[s.index()].volume) + " m^3, at face \"" + face.name + "\""});
   }
-  return places;
+  return locations;
 }
 
 /// \throws Error unless the fluid is in one piece
@@ -167,12 +168,12 @@ Model cut_off(const std::vector<Model>& models, const Meeting& meeting, const Fl
       task, parts, size_of(parts), [&](BooleanTry& t) { judge_cut(parts, t, context); }, report.tries, context);
   if (!result) {
     const UniteTry& last = report.tries.back();
-    std::vector<ErrorPlace> places = last.places;
+    std::vector<ErrorLocation> locations = last.locations;
     for (const PartContact& c : meeting.contacts.contacts)
-      if (last.places.empty() && c.first == 0 && c.kind != ContactKind::apart)
-        places.push_back({c.place, "\"" + part_name(models[c.second]) + "\" meets the container"});
+      if (last.locations.empty() && c.first == 0 && c.kind != ContactKind::apart)
+        locations.push_back({c.location, "\"" + part_name(models[c.second]) + "\" meets the container"});
     fail_fluid(ErrorCode::geometry_failed, names_of(parts) + ": " + last.problem + "; tried up to a tolerance of " + std::to_string(last.tolerance) + " m",
-               std::move(places), "move or turn a body a little, so that it neither ends in a wall nor touches it tangentially");
+               std::move(locations), "move or turn a body a little, so that it neither ends in a wall nor touches it tangentially");
   }
   require_one_piece(*result, parts);
   return std::move(result->model);

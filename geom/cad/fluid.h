@@ -40,12 +40,12 @@ struct Schema<FluidOptions> {
 };
 
 struct FluidReport {
-  std::vector<UniteTry> tries;      ///< attempts of the cut; the last one was accepted; empty if no body reaches the container's faces
-  double volume = 0.0;              ///< volume of the fluid, m^3
-  double container_volume = 0.0;    ///< m^3
-  std::vector<std::string> cut;     ///< bodies that reach the container's faces
-  std::vector<std::string> inside;  ///< bodies inside the container that do not reach its faces
-  std::vector<ErrorPlace> doubts;   ///< contacts that are difficult to mesh: descriptions of bodies nearly tangent to the container
+  std::vector<UniteTry> tries;        ///< attempts of the cut; the last one was accepted; empty if no body reaches the container's faces
+  double volume = 0.0;                ///< volume of the fluid, m^3
+  double container_volume = 0.0;      ///< m^3
+  std::vector<std::string> cut;       ///< bodies that reach the container's faces
+  std::vector<std::string> inside;    ///< bodies inside the container that do not reach its faces
+  std::vector<ErrorLocation> doubts;  ///< contacts that are difficult to mesh: descriptions of bodies nearly tangent to the container
 };
 
 struct FluidDomain {

@@ -47,10 +47,10 @@ struct Plane {
 
 enum class Side { kept, beyond, in_plane, across };
 
-[[noreturn]] void fail_half(ErrorCode code, const std::string& problem, std::vector<ErrorPlace> places, const std::string& hint) {
-  ErrorInfo info{.code = code, .attempted = k_half_attempt, .problem = problem, .places = std::move(places), .hint = hint};
-  info.n_places = static_cast<std::int64_t>(info.places.size());
-  info.places.resize(std::min(k_max_places, info.places.size()));
+[[noreturn]] void fail_half(ErrorCode code, const std::string& problem, std::vector<ErrorLocation> locations, const std::string& hint) {
+  ErrorInfo info{.code = code, .attempted = k_half_attempt, .problem = problem, .locations = std::move(locations), .hint = hint};
+  info.n_locations = static_cast<std::int64_t>(info.locations.size());
+  info.locations.resize(std::min(k_max_locations, info.locations.size()));
   throw Error(std::move(info));
 }
 
@@ -122,16 +122,16 @@ bool is_in_plane(const ModelEdge& edge, const Plane& plane) {
 }
 
 /// \throws Error(open_surface) if free edges are off the plane
-void require_rim_in_plane(const Model& model, const Plane& plane, const std::string& hint) {
-  std::vector<ErrorPlace> places;
+void require_border_in_plane(const Model& model, const Plane& plane, const std::string& hint) {
+  std::vector<ErrorLocation> locations;
   const auto uses = uses_of_edges(model);
   for (const EdgeId e : free_edges(model)) {
     if (is_in_plane(model.edges[e], plane)) continue;
-    const auto [off, place] = distance_of(model.edges[e], plane);
-    places.push_back({place, "open edge of face \"" + model.faces[uses[e].front().face].name + "\", " + number_text(off) + " m off the plane"});
+    const auto [off, location] = distance_of(model.edges[e], plane);
+    locations.push_back({location, "open edge of face \"" + model.faces[uses[e].front().face].name + "\", " + number_text(off) + " m off the plane"});
   }
-  if (!places.empty())
-    fail_half(ErrorCode::open_surface, std::to_string(places.size()) + " free edges are not in the plane " + plane.name(), std::move(places), hint);
+  if (!locations.empty())
+    fail_half(ErrorCode::open_surface, std::to_string(locations.size()) + " free edges are not in the plane " + plane.name(), std::move(locations), hint);
 }
 
 /// Returns the solids that are not entirely beyond the plane, as one model; several solids are united.
@@ -177,7 +177,7 @@ void judge_half(const std::vector<BooleanPart>& parts, BooleanTry& result, const
 
 /// Returns the corner that is nearest to the plane but not in it, as the location of a cut that fails without one: faces there touch the plane, or run along
 /// it.
-ErrorPlace nearest_to(const Plane& plane, const Model& model) {
+ErrorLocation nearest_to(const Plane& plane, const Model& model) {
   double least = std::numeric_limits<double>::infinity();
   Point nearest;
   for (const ModelCorner& corner : model.corners)
@@ -203,13 +203,13 @@ Model cut_at(const Model& model, const Plane& plane, const MeasureBox& box, cons
   std::optional<BooleanTry> result = climb(
       task, parts, cad::longest_side(parts.front().shape->content().shape), [&](BooleanTry& t) { judge_half(parts, t, context); }, tries, context);
   if (!result) {
-    std::vector<ErrorPlace> places = tries.back().places;
-    if (places.empty()) places.push_back(nearest_to(plane, model));
+    std::vector<ErrorLocation> locations = tries.back().locations;
+    if (locations.empty()) locations.push_back(nearest_to(plane, model));
     fail_half(
         ErrorCode::geometry_failed,
         "the cut of \"" + part_name(model) + "\" at " + plane.name() + " fails: " + tries.back().problem + "; tried up to a tolerance of " +
             std::to_string(tries.back().tolerance) + " m",
-        std::move(places),
+        std::move(locations),
         "faces that touch the plane without crossing it, or run nearly along it, are hard to cut: move the plane a little, or cut the triangulated surface");
   }
   const std::vector<FaceOrigin>& origins = result->origin_of_face;
@@ -233,7 +233,7 @@ Model cut_or_split(const Model& model, const Plane& plane, const MeasureBox& box
 }
 
 /// Moves free edges and their corners into the plane. \pre they are within the tolerance
-void flatten_rim(Model& model, const Plane& plane, HalfModelReport& report) {
+void flatten_border(Model& model, const Plane& plane, HalfModelReport& report) {
   std::map<const Curve*, CurvePtr> curves;
   const auto flatten_corner = [&](CornerId c) {
     ModelCorner& corner = model.corners[c];
@@ -247,8 +247,8 @@ void flatten_rim(Model& model, const Plane& plane, HalfModelReport& report) {
     const double off = distance_of(edge, plane).first;
     edge.tolerance += off;
     report.largest_shift = std::max(report.largest_shift, off);
-    report.rim_length += length_of(edge);
-    ++report.n_rim_edges;
+    report.border_length += length_of(edge);
+    ++report.n_border_edges;
     CurvePtr& curve = curves[edge.curve.get()];
     if (!curve) curve = std::make_shared<FlattenedCurve>(edge.curve, plane.axis, plane.at);
     edge.curve = curve;
@@ -272,7 +272,7 @@ HalfModel half_model(const Model& given, const HalfModelOptions& options, const 
   const bool is_open = !free_edges(given).empty();
   if (half.report.was_half && count(sides, Side::kept) == 0) fail_half(ErrorCode::bad_argument, "all of the model is in the plane " + plane.name(), {}, "");
   if (is_open && count(sides, Side::across) > 0)
-    fail_half(ErrorCode::open_surface, "the model is open and cannot be cut", open_places(given),
+    fail_half(ErrorCode::open_surface, "the model is open and cannot be cut", open_locations(given),
               "close it first: read_cad{ ..., cap = true } closes flat openings");
   half.model = is_open || half.report.was_half ? given : without_other_half(given, plane, options, half.report, context);
   boxes = boxes_of(half.model, context);
@@ -283,11 +283,11 @@ HalfModel half_model(const Model& given, const HalfModelOptions& options, const 
   half.report.n_flat_faces = count(sides, Side::in_plane);
   // After a cut, borders may deviate from the plane by the tolerance of the cut, but no face is beyond.
   half.model = select_faces(half.model, [&](FaceId f) { return sides[f.index()] == Side::kept || sides[f.index()] == Side::across; });
-  require_rim_in_plane(half.model, plane,
-                       half.report.was_half ? "close these edges: a half model may be open only at its plane of symmetry"
-                                            : "cut along another plane (axis, at), or use a larger tolerance");
-  flatten_rim(half.model, plane, half.report);
-  if (half.report.n_rim_edges == 0)
+  require_border_in_plane(half.model, plane,
+                          half.report.was_half ? "close these edges: a half model may be open only at its plane of symmetry"
+                                               : "cut along another plane (axis, at), or use a larger tolerance");
+  flatten_border(half.model, plane, half.report);
+  if (half.report.n_border_edges == 0)
     fail_half(ErrorCode::bad_argument, "the model does not reach the plane " + plane.name(), {},
               "set the plane with axis and at; mesh a model without a plane of symmetry as a whole");
   return half;

@@ -48,8 +48,8 @@ struct HalfModelReport {
   std::size_t n_faces_cut = 0;    ///< number of faces that cross the plane; 0 if edges of the model lie along it, so that faces were only selected
   std::size_t n_faces_split = 0;  ///< closed faces that were split into halves, because their seams lie in the plane
   std::size_t n_flat_faces = 0;   ///< faces in the plane, removed
-  std::size_t n_rim_edges = 0;
-  double rim_length = 0.0;     ///< m
+  std::size_t n_border_edges = 0;
+  double border_length = 0.0;  ///< m
   double largest_shift = 0.0;  ///< m: largest displacement of the boundary into the plane
 };
 

@@ -50,7 +50,7 @@ constexpr double k_same_face = 1e-6;
 constexpr double k_extent_change = 1e-6;
 
 /// A repair that changes an area or a volume by more than this fraction is reported.
-constexpr double k_told_change = 1e-3;
+constexpr double k_least_reported_change = 1e-3;
 
 /// OpenCASCADE's message keys of repairs, in our words; other messages are reported by their key.
 constexpr std::array<std::pair<const char*, const char*>, 27> k_words = {{
@@ -84,15 +84,15 @@ constexpr std::array<std::pair<const char*, const char*>, 27> k_words = {{
 }};
 
 /// Collects the messages of OpenCASCADE's fixers in their order.
-class MendNotes : public ShapeExtend_BasicMsgRegistrator {
+class RepairNotes : public ShapeExtend_BasicMsgRegistrator {
  public:
-  explicit MendNotes(CadReport& report) : report_(report) {
+  explicit RepairNotes(CadReport& report) : report_(report) {
     for (const auto& [key, words] : k_words) Message_MsgFile::AddMsg(key, words);
   }
   void Send(const TopoDS_Shape& shape, const Message_Msg& message, const Message_Gravity) override {
-    report_.mended.push_back({.what = TCollection_AsciiString(message.Value(), '?').ToCString(), .place = place_of(shape)});
+    report_.repaired.push_back({.what = TCollection_AsciiString(message.Value(), '?').ToCString(), .location = location_of(shape)});
   }
-  DEFINE_STANDARD_RTTI_INLINE(MendNotes, ShapeExtend_BasicMsgRegistrator)
+  DEFINE_STANDARD_RTTI_INLINE(RepairNotes, ShapeExtend_BasicMsgRegistrator)
 
  private:
   CadReport& report_;
@@ -156,7 +156,7 @@ void drop_doubled_faces(LabelledShape& labelled, CadReport& report) {
         return std::abs(a.area - b.area) <= k_same_face * b.area && a.centre.Distance(b.centre) <= k_same_face * std::sqrt(b.area);
       };
       if (std::any_of(known.begin(), known.end(), is_double)) {
-        report.mended.push_back({.what = "duplicate face removed", .place = place_of(f.Current())});
+        report.repaired.push_back({.what = "duplicate face removed", .location = location_of(f.Current())});
         context->Remove(f.Current());
         is_changed = true;
       } else {
@@ -176,23 +176,23 @@ struct Extent {
 Extent extent_of(const TopoDS_Shape& shape);
 
 std::string changed_text(const char* what, double before, double after, const char* unit) {
-  if (std::abs(after - before) <= k_told_change * std::abs(before)) return {};
+  if (std::abs(after - before) <= k_least_reported_change * std::abs(before)) return {};
   return std::string(what) + " from " + number_text(before) + " to " + number_text(after) + " " + unit;
 }
 
 /// Warns if a repair changed the area or the volume of a part by more than rounding; the effect of a wrong border would otherwise be lost silently.
-void tell_change(const std::string& name, const Extent& before, const Extent& after, const Point& place, CadReport& report) {
+void report_change(const std::string& name, const Extent& before, const Extent& after, const Point& location, CadReport& report) {
   const std::string area = changed_text("area", before.area, after.area, "m^2");
   const std::string volume = before.volume != 0.0 && after.volume == 0.0 ? "the part is no longer closed"
                              : before.volume != 0.0                      ? changed_text("volume", before.volume, after.volume, "m^3")
                                                                          : "";
   if (area.empty() && volume.empty()) return;
-  report.warnings.push_back("repairs changed \"" + name + "\" near " + format_point(place) + ": " + area + (area.empty() || volume.empty() ? "" : ", ") +
+  report.warnings.push_back("repairs changed \"" + name + "\" near " + format_point(location) + ": " + area + (area.empty() || volume.empty() ? "" : ", ") +
                             volume + "; compare with the program that wrote the file; heal = false reads the file without repairs");
 }
 
 /// Repairs faces, borders and shells that OpenCASCADE's check rejects.
-void mend_invalid(LabelledShape& labelled, double size, CadReport& report, const Message_ProgressRange& progress, const RunContext& context) {
+void repair_invalid(LabelledShape& labelled, double size, CadReport& report, const Message_ProgressRange& progress, const RunContext& context) {
   Message_ProgressScope parts(progress, "mending", static_cast<double>(labelled.parts.size()));
   for (ShapePart& part : labelled.parts) {
     context.check_stop();
@@ -202,12 +202,12 @@ void mend_invalid(LabelledShape& labelled, double size, CadReport& report, const
     const Handle(ShapeBuild_ReShape) changes = new ShapeBuild_ReShape;
     const Handle(ShapeFix_Shape) fixer = new ShapeFix_Shape(part.shape);
     fixer->SetContext(changes);
-    fixer->SetMsgRegistrator(new MendNotes(report));
+    fixer->SetMsgRegistrator(new RepairNotes(report));
     fixer->SetMaxTolerance(std::max(k_max_tolerance_share * size, Precision::Confusion()));
     fixer->Perform(range);
     move_labels(labelled.labels, part.shape, [&](const TopoDS_Shape& face) { return changes->Apply(face); });
     part.shape = fixer->Shape();
-    if (!part.shape.IsNull()) tell_change(part.component, before, extent_of(part.shape), place_of(part.shape), report);
+    if (!part.shape.IsNull()) report_change(part.component, before, extent_of(part.shape), location_of(part.shape), report);
   }
   std::erase_if(labelled.parts, [](const ShapePart& part) { return part.shape.IsNull() || !TopExp_Explorer(part.shape, TopAbs_FACE).More(); });
 }
@@ -265,9 +265,9 @@ void accept(ShapePart& part, LabelledShape& labelled, const TopoDS_Shape& result
   const gp_Pnt middle(0.5 * (box.CornerMin().XYZ() + box.CornerMax().XYZ()));
   const bool is_same_area = is_same_extent(measure(part.shape).area, measure(result).area);
   if (!is_same_area || !is_same_extent(volume_of(part.shape, middle), volume_of(result, middle))) {
-    const Point place = report.mended.size() > n_notes_before ? report.mended[n_notes_before].place : place_of(part.shape);
-    report.mended.resize(n_notes_before);
-    report.warnings.push_back(std::string(what) + " near " + format_point(place) + " were kept: removing them would change the " +
+    const Point location = report.repaired.size() > n_notes_before ? report.repaired[n_notes_before].location : location_of(part.shape);
+    report.repaired.resize(n_notes_before);
+    report.warnings.push_back(std::string(what) + " near " + format_point(location) + " were kept: removing them would change the " +
                               (is_same_area ? "volume" : "area") + " by more than a fraction of 1e-6");
     return;
   }
@@ -282,8 +282,8 @@ void drop_small(LabelledShape& labelled, double small, CadReport& report, const 
       const Handle(ShapeBuild_ReShape) changes = new ShapeBuild_ReShape;
       ShapeFix_Wireframe fixer(part.shape);
       fixer.SetContext(changes);
-      const std::size_t n_before = report.mended.size();
-      fixer.SetMsgRegistrator(new MendNotes(report));
+      const std::size_t n_before = report.repaired.size();
+      fixer.SetMsgRegistrator(new RepairNotes(report));
       fixer.SetPrecision(small);
       fixer.ModeDropSmallEdges() = true;
       fixer.FixSmallEdges();
@@ -294,8 +294,8 @@ void drop_small(LabelledShape& labelled, double small, CadReport& report, const 
       ShapeFix_FixSmallFace fixer;
       fixer.Init(part.shape);
       fixer.SetContext(changes);
-      const std::size_t n_before = report.mended.size();
-      fixer.SetMsgRegistrator(new MendNotes(report));
+      const std::size_t n_before = report.repaired.size();
+      fixer.SetMsgRegistrator(new RepairNotes(report));
       fixer.SetPrecision(small);
       fixer.Perform();
       accept(part, labelled, fixer.Shape(), changes, n_before, "small faces", report);
@@ -367,9 +367,11 @@ void sew_open_parts(LabelledShape& labelled, const std::vector<TopoDS_Shape>& op
   if (best.IsNull()) return;
   for (int i = 1; i <= best->NbContigousEdges(); ++i) {
     const TopoDS_Edge& edge = best->ContigousEdge(i);
-    report.mended.push_back({.what = "edges of two faces joined", .place = place_of(edge), .value = std::min(BRep_Tool::Tolerance(edge), best->Tolerance())});
+    report.repaired.push_back(
+        {.what = "edges of two faces joined", .location = location_of(edge), .value = std::min(BRep_Tool::Tolerance(edge), best->Tolerance())});
   }
-  for (int i = 1; i <= best->NbDeletedFaces(); ++i) report.mended.push_back({.what = "face without extent removed", .place = place_of(best->DeletedFace(i))});
+  for (int i = 1; i <= best->NbDeletedFaces(); ++i)
+    report.repaired.push_back({.what = "face without extent removed", .location = location_of(best->DeletedFace(i))});
   for (const TopoDS_Shape& shape : open) move_labels(labelled.labels, shape, [&](const TopoDS_Shape& face) { return best->Modified(face); });
   std::erase_if(labelled.parts,
                 [&](const ShapePart& part) { return std::any_of(open.begin(), open.end(), [&](const TopoDS_Shape& s) { return s.IsSame(part.shape); }); });
@@ -401,7 +403,7 @@ void make_solids(LabelledShape& labelled, CadReport& report) {
   for (ShapePart& part : labelled.parts) {
     if (part.shape.ShapeType() == TopAbs_SHELL && is_closed(part.shape)) {
       part.shape = ShapeFix_Solid().SolidFromShell(TopoDS::Shell(part.shape));
-      report.mended.push_back({.what = "closed shell turned into a solid", .place = place_of(part.shape)});
+      report.repaired.push_back({.what = "closed shell turned into a solid", .location = location_of(part.shape)});
     } else if (part.shape.ShapeType() == TopAbs_SOLID) {
       TopoDS_Solid solid = TopoDS::Solid(part.shape);
       GProp_GProps volume;
@@ -409,7 +411,7 @@ void make_solids(LabelledShape& labelled, CadReport& report) {
       if (volume.Mass() >= 0.0 || count_free_edges({solid}) > 0) continue;
       if (!BRepLib::OrientClosedSolid(solid)) continue;
       part.shape = solid;
-      report.mended.push_back({.what = "orientation of an inside-out solid reversed", .place = place_of(part.shape)});
+      report.repaired.push_back({.what = "orientation of an inside-out solid reversed", .location = location_of(part.shape)});
     }
   }
 }
@@ -421,11 +423,11 @@ void heal(LabelledShape& labelled, const ReadCadOptions& options, CadReport& rep
   const double small = is_automatic(options.small) ? k_small_share * size : options.small;
   Message_ProgressScope steps(progress, "healing", 2.0);
   drop_doubled_faces(labelled, report);
-  mend_invalid(labelled, size, report, steps.Next(), context);
+  repair_invalid(labelled, size, report, steps.Next(), context);
   drop_small(labelled, small, report, context);
   const double area = extent_of(compound_of(labelled.parts)).area;
   join_faces(labelled, options, size, small, report, steps.Next(), context);
-  tell_change("all faces", {.area = area}, {.area = extent_of(compound_of(labelled.parts)).area}, place_of(compound_of(labelled.parts)), report);
+  report_change("all faces", {.area = area}, {.area = extent_of(compound_of(labelled.parts)).area}, location_of(compound_of(labelled.parts)), report);
   if (options.cap) cap_openings(labelled, report);
   make_solids(labelled, report);
 }

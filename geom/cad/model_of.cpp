@@ -32,7 +32,7 @@ constexpr int k_tolerance_samples = 24;
 Point model_point(const gp_Pnt& p) { return {p.X(), p.Y(), p.Z()}; }
 
 [[noreturn]] void fail(const std::string& attempted, const std::string& problem, const TopoDS_Shape& at) {
-  throw Error({.code = ErrorCode::geometry_failed, .attempted = attempted, .problem = problem, .places = {{place_of(at), problem}}});
+  throw Error({.code = ErrorCode::geometry_failed, .attempted = attempted, .problem = problem, .locations = {{location_of(at), problem}}});
 }
 
 /// An oriented edge of a wire, with its ends in space and in the parameters of the face.

@@ -82,22 +82,22 @@ void insert_knots(const std::vector<double>& added, const Insert& insert) {
 /// Returns the first pole (from 1) of each piece that overlaps [from, to].
 std::vector<int> first_poles(const TColStd_Array1OfReal& knots, const TColStd_Array1OfInteger& multiplicities, int degree, double from, double to) {
   std::vector<int> firsts;
-  int place = 0;
+  int location = 0;
   for (int i = knots.Lower(); i < knots.Upper(); ++i) {
-    place += multiplicities(i);
-    if (knots(i) <= to && knots(i + 1) >= from) firsts.push_back(place - degree);
+    location += multiplicities(i);
+    if (knots(i) <= to && knots(i + 1) >= from) firsts.push_back(location - degree);
   }
   return firsts;
 }
 
 /// Returns the boxes of the pieces of an edge; one box if it is not a B-spline.
 std::vector<Box> pieces_of(const TopoDS_Edge& edge, const Bnd_Box& whole, double margin) {
-  TopLoc_Location place;
+  TopLoc_Location location;
   double from = 0.0, to = 0.0;
-  Handle(Geom_Curve) curve = BRep_Tool::Curve(edge, place, from, to);
+  Handle(Geom_Curve) curve = BRep_Tool::Curve(edge, location, from, to);
   if (const Handle(Geom_TrimmedCurve) trimmed = Handle(Geom_TrimmedCurve)::DownCast(curve); !trimmed.IsNull()) curve = trimmed->BasisCurve();
   Handle(Geom_BSplineCurve) spline = Handle(Geom_BSplineCurve)::DownCast(curve);
-  if (spline.IsNull() || !place.IsIdentity() || spline->IsPeriodic()) return {box_of(whole)};
+  if (spline.IsNull() || !location.IsIdentity() || spline->IsPeriodic()) return {box_of(whole)};
   spline = Handle(Geom_BSplineCurve)::DownCast(spline->Copy());
   insert_knots(finer_knots(spline->Knots(), from, to),
                [&](const TColStd_Array1OfReal& knots, const TColStd_Array1OfInteger& m) { spline->InsertKnots(knots, m); });
@@ -114,9 +114,9 @@ std::vector<Box> pieces_of(const TopoDS_Edge& edge, const Bnd_Box& whole, double
 }
 
 std::vector<Box> pieces_of(const TopoDS_Face& face, const Bnd_Box& whole, double margin) {
-  TopLoc_Location place;
-  Handle(Geom_BSplineSurface) spline = Handle(Geom_BSplineSurface)::DownCast(BRep_Tool::Surface(face, place));
-  if (spline.IsNull() || !place.IsIdentity() || spline->IsUPeriodic() || spline->IsVPeriodic()) return {box_of(whole)};
+  TopLoc_Location location;
+  Handle(Geom_BSplineSurface) spline = Handle(Geom_BSplineSurface)::DownCast(BRep_Tool::Surface(face, location));
+  if (spline.IsNull() || !location.IsIdentity() || spline->IsUPeriodic() || spline->IsVPeriodic()) return {box_of(whole)};
   double u0 = 0.0, u1 = 0.0, v0 = 0.0, v1 = 0.0;
   BRepTools::UVBounds(face, u0, u1, v0, v1);
   spline = Handle(Geom_BSplineSurface)::DownCast(spline->Copy());

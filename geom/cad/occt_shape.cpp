@@ -80,18 +80,18 @@ std::string status_text(BRepCheck_Status status) {
 }
 
 /// Adds the texts of the faults of one shape alone, or as a part of `within`.
-void add_faults(const BRepCheck_ListOfStatus& list, const std::string& what, const TopoDS_Shape& at, std::vector<ErrorPlace>& faults) {
+void add_faults(const BRepCheck_ListOfStatus& list, const std::string& what, const TopoDS_Shape& at, std::vector<ErrorLocation>& faults) {
   for (const BRepCheck_Status status : list) {
     if (status == BRepCheck_NoError) continue;
-    ErrorPlace fault{place_of(at), what + ": " + status_text(status)};
-    if (std::none_of(faults.begin(), faults.end(), [&](const ErrorPlace& f) { return f.what == fault.what && f.position == fault.position; }))
+    ErrorLocation fault{location_of(at), what + ": " + status_text(status)};
+    if (std::none_of(faults.begin(), faults.end(), [&](const ErrorLocation& f) { return f.what == fault.what && f.position == fault.position; }))
       faults.push_back(std::move(fault));
   }
 }
 
-std::vector<ErrorPlace> collect_faults(const CadShape::Content& content) {
+std::vector<ErrorLocation> collect_faults(const CadShape::Content& content) {
   const BRepCheck_Analyzer analyzer(content.shape);
-  std::vector<ErrorPlace> faults;
+  std::vector<ErrorLocation> faults;
   if (analyzer.IsValid()) return faults;
   const auto add = [&](const TopoDS_Shape& shape, const std::string& what) {
     const Handle(BRepCheck_Result)& result = analyzer.Result(shape);
@@ -110,13 +110,13 @@ std::vector<ErrorPlace> collect_faults(const CadShape::Content& content) {
     add(content.solids[s], solid);
     for (TopExp_Explorer shell(content.solids[s], TopAbs_SHELL); shell.More(); shell.Next()) add(shell.Current(), solid);
   }
-  if (faults.empty()) faults.push_back({place_of(content.shape), "whole shape: rejected by OpenCASCADE's check"});
+  if (faults.empty()) faults.push_back({location_of(content.shape), "whole shape: rejected by OpenCASCADE's check"});
   return faults;
 }
 
 }  // namespace
 
-Point place_of(const TopoDS_Shape& shape) {
+Point location_of(const TopoDS_Shape& shape) {
   if (shape.IsNull()) return {};
   if (shape.ShapeType() == TopAbs_VERTEX) return point_of_vertex(BRep_Tool::Pnt(TopoDS::Vertex(shape)));
   if (shape.ShapeType() == TopAbs_EDGE) {
@@ -153,11 +153,11 @@ double longest_side(const TopoDS_Shape& shape) {
   return std::max({b[0] - a[0], b[1] - a[1], b[2] - a[2]});
 }
 
-std::vector<ErrorPlace> faults_of(const CadShape& shape) {
+std::vector<ErrorLocation> faults_of(const CadShape& shape) {
   try {
     return collect_faults(shape.content());
   } catch (const Standard_Failure& failure) {
-    return {{place_of(shape.content().shape), std::string("whole shape: OpenCASCADE's check failed with ") + failure.DynamicType()->Name()}};
+    return {{location_of(shape.content().shape), std::string("whole shape: OpenCASCADE's check failed with ") + failure.DynamicType()->Name()}};
   }
 }
 

@@ -56,7 +56,7 @@ struct LabelledShape {
 Model model_of(const LabelledShape& labelled, const std::string& attempted, const RunContext& context);
 
 /// Returns a point on the shape: the middle of an edge, the parametric centre of a face, the first vertex of other shapes.
-Point place_of(const TopoDS_Shape& shape);
+Point location_of(const TopoDS_Shape& shape);
 
 /// Returns all parts in one compound.
 TopoDS_Shape compound_of(const std::vector<ShapePart>& parts);

@@ -70,8 +70,8 @@ double distance_of(const FreeEdge& a, const FreeEdge& b) {
   for (int i = 0; i <= k_samples; ++i) {
     const gp_Pnt p = a.at(static_cast<double>(i) / k_samples);
     double nearest = std::min(p.Distance(b.at(0.0)), p.Distance(b.at(1.0)));
-    const GeomAPI_ProjectPointOnCurve foot(p, b.curve, b.from, b.to);
-    if (foot.NbPoints() > 0) nearest = std::min(nearest, foot.LowerDistance());
+    const GeomAPI_ProjectPointOnCurve projection(p, b.curve, b.from, b.to);
+    if (projection.NbPoints() > 0) nearest = std::min(nearest, projection.LowerDistance());
     largest = std::max(largest, nearest);
   }
   return largest;
@@ -117,7 +117,7 @@ double gap_of_pairs(const std::vector<TopoDS_Shape>& shapes, double small) {
 }
 
 void cap_openings(LabelledShape& labelled, CadReport& report) {
-  std::size_t n_caps = 0, n_rims = 0;
+  std::size_t n_caps = 0, n_borders = 0;
   std::optional<Point> bent;  // an open boundary that no flat face closes
   for (ShapePart& part : labelled.parts) {
     if (part.shape.ShapeType() == TopAbs_SOLID) continue;
@@ -127,9 +127,9 @@ void cap_openings(LabelledShape& labelled, CadReport& report) {
     std::vector<TopoDS_Face> caps;
     for (TopExp_Explorer wire(ShapeAnalysis_FreeBounds(faces).GetClosedWires(), TopAbs_WIRE); wire.More(); wire.Next()) {
       BRepBuilderAPI_MakeFace maker(TopoDS::Wire(wire.Current()), true);
-      ++n_rims;
+      ++n_borders;
       if (maker.IsDone() && has_area(maker.Face())) caps.push_back(maker.Face());
-      else if (!bent) bent = place_of(wire.Current());
+      else if (!bent) bent = location_of(wire.Current());
     }
     n_caps += caps.size();
     if (caps.empty()) continue;
@@ -138,13 +138,13 @@ void cap_openings(LabelledShape& labelled, CadReport& report) {
     label.name = label.component.empty() ? "cap" : label.component + " cap";
     for (const TopoDS_Face& cap : caps) {
       labelled.labels.Bind(cap, label);
-      report.mended.push_back({.what = "flat opening closed with a face", .place = place_of(cap)});
+      report.repaired.push_back({.what = "flat opening closed with a face", .location = location_of(cap)});
     }
     part.shape = shell_with(part.shape, caps);
   }
-  if (n_rims == 0) report.warnings.emplace_back("cap = true has no effect: the model has no opening");
-  else if (n_caps < n_rims)
-    report.warnings.push_back(std::to_string(n_rims - n_caps) + " of " + std::to_string(n_rims) +
+  if (n_borders == 0) report.warnings.emplace_back("cap = true has no effect: the model has no opening");
+  else if (n_caps < n_borders)
+    report.warnings.push_back(std::to_string(n_borders - n_caps) + " of " + std::to_string(n_borders) +
                               " openings are not flat and stay open with cap = true; the first is near " + format_point(*bent) +
                               "; `sterna repair` and --auto close them in the triangulation");
 }

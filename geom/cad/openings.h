@@ -11,7 +11,7 @@ namespace sterna::cad {
 double gap_of_pairs(const std::vector<TopoDS_Shape>& shapes, double small);
 inline constexpr double k_pair_gap = 0.01;
 
-/// Closes flat openings (closed loops of free edges in a plane) of open shells and loose faces with one plane face each, reported in `report.mended`. The
+/// Closes flat openings (closed loops of free edges in a plane) of open shells and loose faces with one plane face each, reported in `report.repaired`. The
 /// component of the face is that of the shell, its name "<component> cap".
 void cap_openings(LabelledShape& labelled, CadReport& report);
 

@@ -15,7 +15,7 @@
 #include "geom/cad/find_contacts.h"
 #include "geom/cad/heal.h"
 #include "geom/cad/occt_call.h"
-#include "geom/cad/sheets.h"
+#include "geom/cad/open_shells.h"
 #include "geom/cad/translate.h"
 #include "geom/model/model_measures.h"
 #include "geom/model/select_faces.h"
@@ -118,15 +118,15 @@ std::vector<CadOpening> openings_of(const Model& model, const std::vector<CadFre
       }
     }
     std::sort(opening.edges.begin(), opening.edges.end());
-    for (const Point& p : samples) opening.place += p / static_cast<double>(samples.size());
+    for (const Point& p : samples) opening.location += p / static_cast<double>(samples.size());
     // The plane through the centre and the two samples with the largest span.
     const Point far = *std::max_element(samples.begin(), samples.end(),
-                                        [&](const Point& a, const Point& b) { return distance(a, opening.place) < distance(b, opening.place); });
+                                        [&](const Point& a, const Point& b) { return distance(a, opening.location) < distance(b, opening.location); });
     for (const Point& p : samples)
-      if (const Vec3 n = cross(far - opening.place, p - opening.place); norm(n) > norm(opening.normal)) opening.normal = n;
+      if (const Vec3 n = cross(far - opening.location, p - opening.location); norm(n) > norm(opening.normal)) opening.normal = n;
     if (norm(opening.normal) > 0.0) opening.normal = opening.normal / norm(opening.normal);
     opening.is_flat = std::all_of(samples.begin(), samples.end(),
-                                  [&](const Point& p) { return std::abs(dot(p - opening.place, opening.normal)) <= k_flat * opening.length; });
+                                  [&](const Point& p) { return std::abs(dot(p - opening.location, opening.normal)) <= k_flat * opening.length; });
     openings.push_back(std::move(opening));
   }
   return openings;
@@ -233,24 +233,24 @@ std::string to_text(const CadReport& report) {
                      (report.n_open > 0 ? ", " + std::to_string(report.n_open) + " open shells or loose faces" : "") +
                      "; names: " + std::to_string(report.n_named_parts) + " parts, " + std::to_string(report.n_named_faces) + " faces";
   for (const std::string& warning : report.warnings) text += "\n  warning: " + warning;
-  std::map<std::string, std::vector<const CadMend*>> by_kind;
-  for (const CadMend& mend : report.mended) by_kind[mend.what].push_back(&mend);
-  for (const auto& [what, mends] : by_kind) {
-    text += "\n  repaired: " + what + ", " + std::to_string(mends.size()) + " x";
-    for (std::size_t i = 0; i < std::min<std::size_t>(mends.size(), 3); ++i)
-      text += (i == 0 ? ": " : ", ") + format_point(mends[i]->place) + (mends[i]->value > 0.0 ? " " + cad::number(mends[i]->value) + " m" : "");
-    if (mends.size() > 3) text += " ...";
+  std::map<std::string, std::vector<const CadRepair*>> by_kind;
+  for (const CadRepair& repair : report.repaired) by_kind[repair.what].push_back(&repair);
+  for (const auto& [what, repairs] : by_kind) {
+    text += "\n  repaired: " + what + ", " + std::to_string(repairs.size()) + " x";
+    for (std::size_t i = 0; i < std::min<std::size_t>(repairs.size(), 3); ++i)
+      text += (i == 0 ? ": " : ", ") + format_point(repairs[i]->location) + (repairs[i]->value > 0.0 ? " " + cad::number(repairs[i]->value) + " m" : "");
+    if (repairs.size() > 3) text += " ...";
   }
   for (std::size_t i = 0; i < std::min(report.openings.size(), k_shown); ++i) {
     const CadOpening& opening = report.openings[i];
-    text += "\n  opening: " + std::to_string(opening.edges.size()) + " edges, " + cad::number(opening.length) + " m, near " + format_point(opening.place);
+    text += "\n  opening: " + std::to_string(opening.edges.size()) + " edges, " + cad::number(opening.length) + " m, near " + format_point(opening.location);
     if (!opening.is_loop) text += ", not a single loop";
     if (opening.is_flat) text += ", flat with normal " + format_point(opening.normal) + (opening.is_loop ? ": `cap = true` closes it" : "");
   }
   for (std::size_t i = 0; i < std::min(report.free_edges.size(), k_shown); ++i) {
     const CadFreeEdge& edge = report.free_edges[i];
-    text += "\n  open: edge " + std::to_string(edge.edge.index()) + " of face " + std::to_string(edge.face.index()) + " at " + format_point(edge.place) + ", " +
-            cad::number(edge.length) + " m long";
+    text += "\n  open: edge " + std::to_string(edge.edge.index()) + " of face " + std::to_string(edge.face.index()) + " at " + format_point(edge.location) +
+            ", " + cad::number(edge.length) + " m long";
   }
   if (report.free_edges.size() > k_shown) text += "\n  open: and " + std::to_string(report.free_edges.size() - k_shown) + " more edges";
   for (std::size_t i = 0; i < std::min(report.faults.size(), k_shown); ++i)

@@ -69,9 +69,9 @@ struct Schema<ReadCadOptions> {
 };
 
 /// One repair made by healing.
-struct CadMend {
+struct CadRepair {
   std::string what;  ///< "small edge removed"
-  Point place;
+  Point location;
   double value = 0.0;  ///< metres: the gap or length that was repaired; 0 if not applicable
 };
 
@@ -79,7 +79,7 @@ struct CadMend {
 struct CadFreeEdge {
   EdgeId edge;
   FaceId face;
-  Point place;  ///< midpoint of the edge
+  Point location;  ///< midpoint of the edge
   double length = 0.0;
 };
 
@@ -88,7 +88,7 @@ struct CadOpening {
   std::vector<EdgeId> edges;
   bool is_loop = false;  ///< each corner has two free edges
   bool is_flat = false;  ///< in a plane, to 1e-4 of the length: `cap` would close a flat loop
-  Point place;           ///< mean of its corners
+  Point location;        ///< mean of its corners
   Vec3 normal;           ///< normal of the plane, if flat
   double length = 0.0;   ///< total length of the edges, metres
 };
@@ -102,10 +102,10 @@ struct CadReport {
   std::size_t n_open = 0;         ///< shells with free edges, and loose faces
   std::size_t n_named_parts = 0;  ///< solids, shells and instances with names from the file
   std::size_t n_named_faces = 0;
-  std::vector<CadMend> mended;
+  std::vector<CadRepair> repaired;
   std::vector<CadFreeEdge> free_edges;
-  std::vector<CadOpening> openings;  ///< the same free edges grouped by connectivity
-  std::vector<ErrorPlace> faults;    ///< faults still reported by OpenCASCADE's check
+  std::vector<CadOpening> openings;   ///< the same free edges grouped by connectivity
+  std::vector<ErrorLocation> faults;  ///< faults still reported by OpenCASCADE's check
   std::vector<std::string> warnings;
   bool is_closed() const { return n_open == 0 && n_closed > 0; }
 };

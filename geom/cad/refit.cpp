@@ -22,19 +22,19 @@ struct Refits {
   std::vector<const Geometry*> originals;
   std::vector<std::shared_ptr<const Geometry>> replacements;
   std::vector<double> errors;
-  std::map<const Geometry*, std::size_t> places;
+  std::map<const Geometry*, std::size_t> locations;
   void note(const Geometry* geometry) {
-    if (!places.contains(geometry) && !is_exact(*geometry)) {
-      places.emplace(geometry, originals.size());
+    if (!locations.contains(geometry) && !is_exact(*geometry)) {
+      locations.emplace(geometry, originals.size());
       originals.push_back(geometry);
     }
   }
   /// Replaces the handle and returns the error of the replacement.
   double replace(std::shared_ptr<const Geometry>& handle) const {
-    const auto place = places.find(handle.get());
-    if (place == places.end()) return 0.0;
-    handle = replacements[place->second];
-    return errors[place->second];
+    const auto location = locations.find(handle.get());
+    if (location == locations.end()) return 0.0;
+    handle = replacements[location->second];
+    return errors[location->second];
   }
 };
 

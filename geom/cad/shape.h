@@ -42,7 +42,7 @@ namespace cad {
 std::shared_ptr<const CadShape> shape_of(const Model& model, const RunContext& context);
 
 /// Returns the faults of a shape found by OpenCASCADE's check (BRepCheck), one text with location for each faulty face, edge or corner; empty: valid.
-std::vector<ErrorPlace> faults_of(const CadShape& shape);
+std::vector<ErrorLocation> faults_of(const CadShape& shape);
 
 }  // namespace cad
 }  // namespace sterna

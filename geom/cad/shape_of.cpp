@@ -23,7 +23,7 @@ namespace {
 constexpr const char* k_shape_attempt = "converting the model to OpenCASCADE";
 
 [[noreturn]] void fail(const std::string& problem, const Point& at) {
-  throw Error({.code = ErrorCode::geometry_failed, .attempted = k_shape_attempt, .problem = problem, .places = {{at, problem}}});
+  throw Error({.code = ErrorCode::geometry_failed, .attempted = k_shape_attempt, .problem = problem, .locations = {{at, problem}}});
 }
 
 double tolerance_of(double tolerance) { return std::max(tolerance, Precision::Confusion()); }
@@ -80,12 +80,12 @@ class ShapeBuilder {
          face.surface->point({0.5 * (box.u.from + box.u.to), 0.5 * (box.v.from + box.v.to)}));
   }
 
-  const EdgeUse& use_at(const EdgeUsePlace& place) const { return model_.faces[place.face].borders[place.border][place.place]; }
+  const EdgeUse& use_at(const EdgeUseLocation& location) const { return model_.faces[location.face].borders[location.border][location.location]; }
 
   /// Adds the curve of one use; both uses of a seam are added together, at the first of them.
-  void add_parameter_curve(EdgeId e, const std::vector<EdgeUsePlace>& uses, std::size_t i) {
+  void add_parameter_curve(EdgeId e, const std::vector<EdgeUseLocation>& uses, std::size_t i) {
     const FaceId face = uses[i].face;
-    const auto same_face = [&](const EdgeUsePlace& other) { return other.face == face; };
+    const auto same_face = [&](const EdgeUseLocation& other) { return other.face == face; };
     if (std::any_of(uses.begin(), uses.begin() + static_cast<std::ptrdiff_t>(i), same_face)) return;
     const auto seam = std::find_if(uses.begin() + static_cast<std::ptrdiff_t>(i) + 1, uses.end(), same_face);
     const double tolerance = tolerance_of(model_.edges[e].tolerance);
@@ -101,12 +101,12 @@ class ShapeBuilder {
     builder_.Range(edge, surfaces_[face.index()], TopLoc_Location(), model_.edges[e].range.from, model_.edges[e].range.to);
   }
 
-  Handle(Geom2d_Curve) parameter_curve(const EdgeUsePlace& place) const {
-    Handle(Geom2d_Curve) curve = geom_of(*use_at(place).parameter);
+  Handle(Geom2d_Curve) parameter_curve(const EdgeUseLocation& location) const {
+    Handle(Geom2d_Curve) curve = geom_of(*use_at(location).parameter);
     if (!curve.IsNull()) return curve;
-    const ParameterCurve& parameter = *use_at(place).parameter;
-    fail("a parameter curve of face " + std::to_string(place.face.index()) + " has no exact form in OpenCASCADE",
-         model_.faces[place.face].surface->point(parameter.point(parameter.domain().from)));
+    const ParameterCurve& parameter = *use_at(location).parameter;
+    fail("a parameter curve of face " + std::to_string(location.face.index()) + " has no exact form in OpenCASCADE",
+         model_.faces[location.face].surface->point(parameter.point(parameter.domain().from)));
   }
 
   void add_face(FaceId f) {

@@ -55,7 +55,7 @@ namespace {
 using StepEdge = Handle(StepShape_OrientedEdge);
 
 /// Intervals of an edge at which its course in the parameters of the face is sampled: less than a quarter turn each for any edge that turns up to eight times.
-constexpr int k_edge_places = 32;
+constexpr int k_edge_locations = 32;
 /// A longer step between two samples, relative to the period, passes through a pole.
 constexpr double k_largest_step = 0.3;
 /// An end of a surface narrower than this fraction of the surface is a pole.
@@ -85,13 +85,13 @@ struct Hole {
 };
 
 double spread(const Handle(Geom_Surface) & surface, const PoledSurface& poled, double along) {
-  constexpr int k_places = 8;
+  constexpr int k_locations = 8;
   const auto point = [&](int i) {
-    const gp_Pnt2d uv = poled.at(poled.from + poled.period * i / k_places, along);
+    const gp_Pnt2d uv = poled.at(poled.from + poled.period * i / k_locations, along);
     return surface->Value(uv.X(), uv.Y());
   };
   double largest = 0.0;
-  for (int i = 1; i < k_places; ++i) largest = std::max(largest, point(0).Distance(point(i)));
+  for (int i = 1; i < k_locations; ++i) largest = std::max(largest, point(0).Distance(point(i)));
   return largest;
 }
 
@@ -134,8 +134,8 @@ class FaceReader {
     const Handle(Geom_Curve) geometry = BRep_Tool::Curve(TopoDS::Edge(tool_->Find(curve)), from, to);
     if (geometry.IsNull()) return false;
     const bool is_along = use->Orientation() == curve->SameSense();
-    for (int i = 0; i <= k_edge_places; ++i) {
-      const double share = static_cast<double>(i) / k_edge_places;
+    for (int i = 0; i <= k_edge_locations; ++i) {
+      const double share = static_cast<double>(i) / k_edge_locations;
       points.push_back(geometry->Value(is_along ? from + share * (to - from) : to - share * (to - from)));
     }
     return true;

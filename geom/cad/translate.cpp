@@ -92,11 +92,11 @@ class DocumentWalk {
   }
 
  private:
-  void visit(const TDF_Label& label, const TopLoc_Location& place, const std::string& instance, const FaceLabel& inherited) {
+  void visit(const TDF_Label& label, const TopLoc_Location& location, const std::string& instance, const FaceLabel& inherited) {
     const FaceLabel own = label_of(label);
     const FaceLabel merged{.name = {}, .colour = own.colour ? own.colour : inherited.colour, .layer = own.layer.empty() ? inherited.layer : own.layer};
     if (!XCAFDoc_ShapeTool::IsAssembly(label)) {
-      add_part(label, place, instance, own.name, merged);
+      add_part(label, location, instance, own.name, merged);
       return;
     }
     TDF_LabelSequence components;
@@ -106,17 +106,17 @@ class DocumentWalk {
       if (!XCAFDoc_ShapeTool::GetReferredShape(component, product)) continue;
       const FaceLabel of_instance = label_of(component);
       const std::string name = !of_instance.name.empty() && !of_instance.name.starts_with("NAUO") ? of_instance.name : name_of(product);
-      visit(product, place * XCAFDoc_ShapeTool::GetLocation(component), name,
+      visit(product, location * XCAFDoc_ShapeTool::GetLocation(component), name,
             {.name = {},
              .colour = of_instance.colour ? of_instance.colour : merged.colour,
              .layer = of_instance.layer.empty() ? merged.layer : of_instance.layer});
     }
   }
 
-  void add_part(const TDF_Label& label, const TopLoc_Location& place, const std::string& instance, const std::string& product, const FaceLabel& merged) {
+  void add_part(const TDF_Label& label, const TopLoc_Location& location, const std::string& instance, const std::string& product, const FaceLabel& merged) {
     const TopoDS_Shape shape = XCAFDoc_ShapeTool::GetShape(label);
     if (shape.IsNull()) return;
-    const auto placed = [&](const TopoDS_Shape& s) { return s.Moved(place); };
+    const auto placed = [&](const TopoDS_Shape& s) { return s.Moved(location); };
     TDF_LabelSequence parts;
     XCAFDoc_ShapeTool::GetSubShapes(label, parts);
     // Names of solids and shells within a product, and labels of faces; labels of a solid apply to its faces.

@@ -100,7 +100,7 @@ BooleanTry try_once(const BooleanTask& task, const std::vector<BooleanPart>& par
     if (error.code() != ErrorCode::geometry_failed) throw;
     result.is_late = std::chrono::duration<double>(Clock::now() - start).count() > task.time_limit;
     result.outcome.problem = error.info().problem;  // a larger tolerance may succeed
-    result.outcome.places = error.info().places;
+    result.outcome.locations = error.info().locations;
   }
   return result;
 }
@@ -127,10 +127,10 @@ std::string names_of(const std::vector<BooleanPart>& parts) {
 }
 
 std::string measure_result(BooleanTry& result, const std::string& what, std::vector<double>& areas, const RunContext& context) {
-  result.outcome.places = faults_of(*result.model.shape);
-  if (!result.outcome.places.empty()) return "the " + what + " is not valid: " + result.outcome.places.front().what;
+  result.outcome.locations = faults_of(*result.model.shape);
+  if (!result.outcome.locations.empty()) return "the " + what + " is not valid: " + result.outcome.locations.front().what;
   if (!is_closed_model(result.model)) {
-    result.outcome.places = open_places(result.model);
+    result.outcome.locations = open_locations(result.model);
     return "the " + what + " is not closed";
   }
   std::vector<FaceMeasures> measures(result.model.faces.size());

@@ -40,7 +40,7 @@ struct BooleanTry {
 /// Tolerances to try, as fractions of the longest side. The first one is exact, the last one is a tenth of the resolution of a mesh at a wing's leading edge.
 inline constexpr std::array<double, 5> k_boolean_ladder = {0.0, 1e-7, 1e-6, 1e-5, 1e-4};
 
-/// Sets outcome.problem and outcome.places of an attempt that is to be rejected, and its volume.
+/// Sets outcome.problem and outcome.locations of an attempt that is to be rejected, and its volume.
 using Judge = std::function<void(BooleanTry&)>;
 
 /// Returns the first attempt that `judge` accepts, or nothing if there is none. All attempts are added to `tries`. The tolerances of the ladder are fractions
@@ -49,9 +49,9 @@ using Judge = std::function<void(BooleanTry&)>;
 std::optional<BooleanTry> climb(const BooleanTask& task, const std::vector<BooleanPart>& parts, double size, const Judge& judge, std::vector<UniteTry>& tries,
                                 const RunContext& context);
 
-/// Tests for defects that any result may have: faults of OpenCASCADE's check, and free edges (their locations are stored in outcome.places). Returns the first
-/// one; empty if there is none. Then measures the remaining area of each part, m^2, and the volume of the result. \p what is its name in messages: "half".
-/// \pre one entry of `areas` per part, 0
+/// Tests for defects that any result may have: faults of OpenCASCADE's check, and free edges (their locations are stored in outcome.locations). Returns the
+/// first one; empty if there is none. Then measures the remaining area of each part, m^2, and the volume of the result. \p what is its name in messages:
+/// "half". \pre one entry of `areas` per part, 0
 std::string measure_result(BooleanTry& result, const std::string& what, std::vector<double>& areas, const RunContext& context);
 
 /// Returns the longest side of the largest part.

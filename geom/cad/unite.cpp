@@ -83,10 +83,11 @@ std::vector<Part> alone(const Part& a, const Part& b, const RunContext& context)
 [[noreturn]] void blame(const std::vector<Part>& parts, const UniteOptions& options, double size, const UniteReport& report, const RunContext& context) {
   ErrorInfo info{.code = ErrorCode::geometry_failed, .attempted = "uniting " + std::to_string(parts.size()) + " parts"};
   const UniteTry* blamed = &report.tries.back();
-  std::vector<ErrorPlace> contacts;  // locations to report if OpenCASCADE gives none
+  std::vector<ErrorLocation> contacts;  // locations to report if OpenCASCADE gives none
   const auto add_contacts = [&](const auto& is_blamed) {
     for (const PartContact& contact : report.contacts)
-      if (is_blamed(contact)) contacts.push_back({contact.place, "\"" + parts[contact.first].name() + "\" and \"" + parts[contact.second].name() + "\" meet"});
+      if (is_blamed(contact))
+        contacts.push_back({contact.location, "\"" + parts[contact.first].name() + "\" and \"" + parts[contact.second].name() + "\" meet"});
   };
   std::vector<UniteTry> pair_tries;
   for (std::size_t a = 0; a < parts.size() && info.problem.empty() && parts.size() > 2; ++a)
@@ -103,9 +104,9 @@ std::vector<Part> alone(const Part& a, const Part& b, const RunContext& context)
     add_contacts([](const PartContact& contact) { return contact.kind != ContactKind::apart; });
   }
   info.problem += "; tried up to a tolerance of " + std::to_string(blamed->tolerance) + " m";
-  info.places = blamed->places.empty() ? contacts : blamed->places;
-  info.n_places = static_cast<std::int64_t>(info.places.size());
-  info.places.resize(std::min(k_max_places, info.places.size()));
+  info.locations = blamed->locations.empty() ? contacts : blamed->locations;
+  info.n_locations = static_cast<std::int64_t>(info.locations.size());
+  info.locations.resize(std::min(k_max_locations, info.locations.size()));
   info.hint = "move or turn one of the parts a little, so that surfaces neither coincide nor touch tangentially";
   throw Error(std::move(info));
 }
@@ -117,8 +118,8 @@ void look_at_contacts(std::span<const Model> models, std::vector<Part>& parts, U
   for (const PartContact& contact : found.contacts) {
     const std::string doubt = doubt_of(contact, models);
     if (doubt.empty()) continue;
-    context.warn("union: " + doubt + ", at " + format_point(contact.place));
-    report.doubts.push_back({contact.place, doubt});
+    context.warn("union: " + doubt + ", at " + format_point(contact.location));
+    report.doubts.push_back({contact.location, doubt});
   }
   report.contacts = std::move(found.contacts);
 }

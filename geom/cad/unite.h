@@ -42,7 +42,7 @@ struct Schema<UniteOptions> {
 struct UniteTry {
   double tolerance = 0.0;  ///< metres
   std::string problem;     ///< empty: it was accepted
-  std::vector<ErrorPlace> places;
+  std::vector<ErrorLocation> locations;
 };
 
 struct UniteReport {
@@ -52,7 +52,7 @@ struct UniteReport {
   double largest_volume = 0.0;        ///< volume of the largest part
   std::size_t n_bodies = 0;           ///< closed solids that do not touch; 1 if everything is connected
   std::vector<PartContact> contacts;  ///< contacts of the parts, found before anything is united
-  std::vector<ErrorPlace> doubts;     ///< descriptions of contacts that are difficult to unite or mesh: gaps, nearly tangent joins, parts inside others
+  std::vector<ErrorLocation> doubts;  ///< descriptions of contacts that are difficult to unite or mesh: gaps, nearly tangent joins, parts inside others
 };
 
 struct UniteResult {

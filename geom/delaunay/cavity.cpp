@@ -26,7 +26,7 @@ Location settle(TriangleId t, unsigned zero) {
 
 }  // namespace
 
-Location locate(const Triangulation& mesh, const Vec2& place, TriangleId from, std::size_t max_steps) {
+Location locate(const Triangulation& mesh, const Vec2& plane_point, TriangleId from, std::size_t max_steps) {
   TriangleId t = from;
   HalfedgeId entered;
   if (mesh.is_ghost(t)) {
@@ -44,7 +44,7 @@ Location locate(const Triangulation& mesh, const Vec2& place, TriangleId from, s
       const std::uint32_t c = (first + k) % 3;
       const HalfedgeId h = halfedge(t, c);
       if (h == entered) continue;
-      const int side = orient2d(mesh.uv[cell.vertex[c]], mesh.uv[cell.vertex[c == 2 ? 0 : c + 1]], place);
+      const int side = orient2d(mesh.uv[cell.vertex[c]], mesh.uv[cell.vertex[c == 2 ? 0 : c + 1]], plane_point);
       if (side < 0) {
         if (cell.twin[c].is_valid()) {
           crossed = h;

@@ -26,8 +26,8 @@ struct Location {
   HalfedgeId halfedge;
 };
 
-/// Walks from triangle `from` (not dead) towards `place`, over at most `max_steps` triangles.
-Location locate(const Triangulation& mesh, const Vec2& place, TriangleId from, std::size_t max_steps);
+/// Walks from triangle `from` (not dead) towards `plane_point`, over at most `max_steps` triangles.
+Location locate(const Triangulation& mesh, const Vec2& plane_point, TriangleId from, std::size_t max_steps);
 
 /// Work arrays of insertions; keep one object for many insertions, so that none of them allocates.
 struct Cavity {

@@ -79,7 +79,7 @@ bool is_better(const StarQuality& before, const StarQuality& after) {
 }
 
 /// Returns the mean of the positions that would make each triangle of the star equilateral on its outer edge.
-Point ideal_place(const Ring& ring, const Point& at) {
+Point ideal_location(const Ring& ring, const Point& at) {
   Vec3 sum{};
   double n = 0.0;
   for (const Ring::Side& side : ring.sides) {
@@ -126,7 +126,7 @@ ShapeStep shape_step(const Ring& ring, const Point& at, const SurfaceFrame& fram
 }
 
 /// Tries to move v; returns true if it was moved.
-bool improve_place(FaceState& state, VertexId v, Ring& ring) {
+bool improve_location(FaceState& state, VertexId v, Ring& ring) {
   SurfaceTriangulation& mesh = state.mesh;
   const SurfaceFrame frame = mesh.frames[v];
   if (norm2(frame.normal) == 0.0) return false;
@@ -144,7 +144,7 @@ bool improve_place(FaceState& state, VertexId v, Ring& ring) {
     const ShapeStep shape = shape_step(ring, at, frame);
     return shape.gain > k_min_shape_gain && move_by(shape.step);
   }
-  return move_by(ideal_place(ring, at) - at) || move_by(shape_step(ring, at, frame).step);
+  return move_by(ideal_location(ring, at) - at) || move_by(shape_step(ring, at, frame).step);
 }
 
 int valence(const SurfaceTriangulation& mesh, VertexId v) {
@@ -236,7 +236,7 @@ void smooth(FaceState& state, FaceMeshReport& report, const RunContext& context)
       const VertexId v(i);
       if (is_active[i] == 0 || !mesh.mesh.outgoing[v].is_valid()) continue;
       is_active[i] = 0;
-      if (!improve_place(state, v, ring)) continue;
+      if (!improve_location(state, v, ring)) continue;
       ++n_moved;
       has_moved[i] = 1;
     }

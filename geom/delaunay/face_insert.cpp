@@ -1,4 +1,4 @@
-// Passes that insert vertices: unfolding, size, quality. Each is a task of refine (geom/delaunay/refine.h).
+// Passes that insert vertices: unfolding, size, quality. Each is a task of refine (geom/delaunay/refinement_queue.h).
 #include <algorithm>
 #include <cmath>
 #include <numbers>
@@ -6,7 +6,7 @@
 #include "geom/base/error.h"
 #include "geom/delaunay/face_passes.h"
 #include "geom/delaunay/planar.h"
-#include "geom/delaunay/refine.h"
+#include "geom/delaunay/refinement_queue.h"
 
 namespace sterna::delaunay {
 namespace {
@@ -32,7 +32,7 @@ constexpr double k_front_growth = 1.5;
 constexpr double k_front_shrink = 0.7;
 /// Tolerance of a position, relative to the edge length. For the apexes of the first pass it must be smaller, since errors accumulate from layer to layer: with
 /// 0.02, 92 % of the vertices of a bicubic bump have six neighbours, with 0.002 96 %, and Newton's method rarely needs an additional step.
-constexpr double k_place_tolerance = 0.15;
+constexpr double k_location_tolerance = 0.15;
 constexpr double k_apex_tolerance = 0.002;
 
 struct Triangle {
@@ -74,7 +74,7 @@ void propose_over_edge(const FaceState& state, const Triangle& tri, std::size_t 
   const Uv a = state.mesh.parameters(tri.v[k]), b = state.mesh.parameters(tri.v[l]), c = state.mesh.parameters(tri.v[m]);
   const Uv uv_middle = 0.5 * (a + b);
   const Uv uv_up = c - uv_middle - share * (b - a);
-  proposal.at = approach(state, middle + ratio * up, uv_middle + ratio * uv_up, k_place_tolerance * spacing, proposal.sample);
+  proposal.at = approach(state, middle + ratio * up, uv_middle + ratio * uv_up, k_location_tolerance * spacing, proposal.sample);
 }
 
 /// Proposes the apex of an isosceles triangle on edge k of exactly this height: the direction is along the surface at the edge, not in the plane of a triangle
@@ -141,7 +141,7 @@ struct UnfoldTask {
     return true;
   }
   void inserted(const SurfaceTriangulation&, VertexId, const Proposal& proposal) const {
-    state.size.push_back(wanted_size(state, proposal.at, proposal.sample.point));
+    state.size.push_back(target_size(state, proposal.at, proposal.sample.point));
   }
 };
 
@@ -187,7 +187,7 @@ struct SizeTask {
     const double height = centre > 0.0 ? std::min(ideal, centre) : ideal;
     if (is_front) propose_apex(state, tri, k, height, side, proposal);
     else propose_over_edge(state, tri, k, height, side, proposal);
-    proposal.size = wanted_size(state, proposal.at, proposal.sample.point);
+    proposal.size = target_size(state, proposal.at, proposal.sample.point);
     proposal.min_distance = k_min_spacing * std::min(side, proposal.size);
     return true;
   }
@@ -211,7 +211,7 @@ struct QualityTask {
     // Off-centre: the new triangle on the shortest edge just meets the target angle.
     const double height = std::min(centre_height(tri, k), 0.5 * edge / std::tan(0.5 * state.options.min_angle));
     propose_over_edge(state, tri, k, height, edge, proposal);
-    proposal.size = wanted_size(state, proposal.at, proposal.sample.point);
+    proposal.size = target_size(state, proposal.at, proposal.sample.point);
     proposal.min_distance = std::max(0.9 * edge, k_min_spacing_for_quality * proposal.size);
     return true;
   }
@@ -233,7 +233,7 @@ void count(FaceState& state, const RefineReport& done, FaceMeshReport& report) {
                  .attempted = "meshing a face",
                  .problem = "the limit of " + std::to_string(state.options.max_triangles) +
                             " triangles (max_triangles) is reached before the edges have their target length"};
-  info.places.push_back({state.mesh.points[last], "target edge length here: " + std::to_string(state.size[last]) + " m"});
+  info.locations.push_back({state.mesh.points[last], "target edge length here: " + std::to_string(state.size[last]) + " m"});
   info.hint = "a larger max_edge, min_edge or curvature_angle, or a higher limit";
   throw Error(std::move(info));
 }

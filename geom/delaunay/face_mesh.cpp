@@ -82,8 +82,8 @@ void set_border_sizes(FaceState& state, const SurfaceBorder& border) {
       }
     }
   for (std::size_t v = 0; v < border.uv.size(); ++v) {
-    const double wanted = wanted_size(state, border.uv[v], border.samples[v].point);
-    state.size.push_back(n[v] > 0.0 ? std::min(sum[v] / n[v], 2.0 * wanted) : wanted);
+    const double requested = target_size(state, border.uv[v], border.samples[v].point);
+    state.size.push_back(n[v] > 0.0 ? std::min(sum[v] / n[v], 2.0 * requested) : requested);
   }
 }
 
@@ -127,7 +127,7 @@ void measure(const FaceMesh& mesh, FaceMeshReport& report) {
                  flat = area > 0.0 ? low / area : -std::numeric_limits<double>::infinity();
     if (steep > steepest) {
       steepest = steep;
-      report.worst_place = (a + b + c) / 3.0;
+      report.worst_location = (a + b + c) / 3.0;
     }
     flattest = std::min(flattest, flat);
     if (steep > k_steep || flat < k_flat) ++report.n_outside_20_130;

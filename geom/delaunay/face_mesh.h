@@ -51,7 +51,7 @@ struct FaceMeshReport {
   std::int64_t n_collapses = 0;
   double min_angle = 0.0;  ///< rad, smallest angle of all triangles
   double max_angle = 0.0;
-  Point worst_place{};                ///< location of the smallest angle
+  Point worst_location{};             ///< location of the smallest angle
   std::int64_t n_outside_20_130 = 0;  ///< triangles with an angle outside [20, 130] degrees
   std::int64_t n_folded = 0;          ///< triangles whose normal is opposite to the surface's normal at a corner
 };

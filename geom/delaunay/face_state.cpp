@@ -25,13 +25,13 @@ SurfaceSample sample(const Surface& surface, Uv at) {
   return result;
 }
 
-double wanted_size(const FaceState& state, Uv at, const Point& point) {
-  const double size = state.wanted(at, point);
+double target_size(const FaceState& state, Uv at, const Point& point) {
+  const double size = state.requested(at, point);
   if (!(size > 0.0)) {
     ErrorInfo info{.code = ErrorCode::bad_argument,
                    .attempted = "meshing a face",
                    .problem = "the target edge length is " + std::to_string(size) + " m, must be positive"};
-    info.places.push_back({point, "here"});
+    info.locations.push_back({point, "here"});
     throw Error(std::move(info));
   }
   return std::max(state.options.min_edge, size);

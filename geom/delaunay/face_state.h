@@ -8,7 +8,7 @@ namespace sterna::delaunay {
 
 struct FaceState {
   const Surface& surface;
-  const SizeFunction& wanted;
+  const SizeFunction& requested;
   const FaceMeshOptions& options;
   ParameterBox box;  ///< box of the border
   SurfaceTriangulation mesh;
@@ -19,7 +19,7 @@ SurfaceSample sample(const Surface& surface, Uv at);
 
 /// Returns the target edge length at a location, not below min_edge.
 /// \throws Error(bad_argument) if it is not positive
-double wanted_size(const FaceState& state, Uv at, const Point& point);
+double target_size(const FaceState& state, Uv at, const Point& point);
 
 /// Finds the parameters nearest to `target`, and the sample there, by Newton's method on the tangent plane from `guess`, limited to the box of the border.
 /// `tolerance`: metres along the surface.

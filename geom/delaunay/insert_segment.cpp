@@ -27,15 +27,15 @@ constexpr std::size_t k_flip_limit_factor = 64;
   const double across_d = (pb.x - pa.x) * (pd.y - pa.y) - (pb.y - pa.y) * (pd.x - pa.x);
   const double s = across_c / (across_c - across_d);
   const auto at = [](const Vec2& p) { return Vec3{p.x, p.y, 0.0}; };
-  const Vec3 place = at(pc) + s * (at(pd) - at(pc));
+  const Vec3 location = at(pc) + s * (at(pd) - at(pc));
   ErrorInfo info{.code = ErrorCode::self_intersection,
                  .attempted = "triangulating points and segments in the plane",
                  .problem = "two segments cross: between points " + std::to_string(a.value()) + " and " + std::to_string(b.value()) + ", and between points " +
                             std::to_string(c.value()) + " and " + std::to_string(d.value())};
-  info.places.push_back({place, "crossing of the segments " + format_point(at(pa)) + " - " + format_point(at(pb)) + " and " + format_point(at(pc)) + " - " +
-                                    format_point(at(pd))});
+  info.locations.push_back({location, "crossing of the segments " + format_point(at(pa)) + " - " + format_point(at(pb)) + " and " + format_point(at(pc)) +
+                                          " - " + format_point(at(pd))});
   info.hint = "borders may touch only at common points";
-  info.geometry.points = {at(pa), at(pb), at(pc), at(pd), place};
+  info.geometry.points = {at(pa), at(pb), at(pc), at(pd), location};
   info.geometry.edges = {{0, 1}, {2, 3}};
   info.geometry.vertices = {4};
   throw Error(std::move(info));

@@ -15,7 +15,7 @@ constexpr std::uint32_t k_first_round_bits = 10;
 /// Two levels of the Hilbert curve at once: for each of its four orientations and each of 4 x 4 cells, the position of the cell and the orientation within it.
 /// Orientation: bit 0 = coordinates exchanged, bit 1 = both mirrored.
 struct TwoLevels {
-  std::array<std::array<std::uint8_t, 16>, 4> place{};
+  std::array<std::array<std::uint8_t, 16>, 4> position{};
   std::array<std::array<std::uint8_t, 16>, 4> inner{};
 };
 
@@ -23,7 +23,7 @@ constexpr TwoLevels make_two_levels() {
   TwoLevels table;
   for (unsigned orientation = 0; orientation < 4; ++orientation) {
     for (unsigned cell = 0; cell < 16; ++cell) {
-      unsigned state = orientation, place = 0;
+      unsigned state = orientation, position = 0;
       for (unsigned level = 2; level-- > 0;) {
         unsigned x = (cell >> (2 + level)) & 1u, y = (cell >> level) & 1u;
         if ((state & 2u) != 0) {
@@ -35,11 +35,11 @@ constexpr TwoLevels make_two_levels() {
           x = y;
           y = old_x;
         }
-        place = place << 2 | ((3u * x) ^ y);
+        position = position << 2 | ((3u * x) ^ y);
         // In the first and last quadrant the curve runs along the other diagonal; in the last one also backwards.
         if (y == 0) state ^= x != 0 ? 3u : 1u;
       }
-      table.place[orientation][cell] = static_cast<std::uint8_t>(place);
+      table.position[orientation][cell] = static_cast<std::uint8_t>(position);
       table.inner[orientation][cell] = static_cast<std::uint8_t>(state);
     }
   }
@@ -54,7 +54,7 @@ std::uint64_t hilbert_key(std::uint32_t x, std::uint32_t y) {
   std::uint32_t state = 0;
   for (int shift = k_levels - 2; shift >= 0; shift -= 2) {
     const std::uint32_t cell = ((x >> shift) & 3u) << 2 | ((y >> shift) & 3u);
-    key = key << 4 | k_two_levels.place[state][cell];
+    key = key << 4 | k_two_levels.position[state][cell];
     state = k_two_levels.inner[state][cell];
   }
   return key;
@@ -68,7 +68,7 @@ std::uint64_t scramble(std::uint64_t i) {
   return i ^ (i >> 31);
 }
 
-struct Place {
+struct KeyedIndex {
   std::uint64_t key;
   std::uint32_t index;
 };
@@ -86,15 +86,15 @@ std::vector<std::uint32_t> sorted_along_curve(std::span<const Vec2> points, cons
   const double side = std::max(high.x - low.x, high.y - low.y);
   const double cells = (1u << k_levels) - 1;
   const double scale = side > 0.0 ? cells / side : 0.0;
-  std::vector<Place> places(n);
+  std::vector<KeyedIndex> locations(n);
   for (std::size_t i = 0; i < n; ++i) {
     const auto x = static_cast<std::uint32_t>(std::clamp((points[i].x - low.x) * scale, 0.0, cells));
     const auto y = static_cast<std::uint32_t>(std::clamp((points[i].y - low.y) * scale, 0.0, cells));
-    places[i] = {round_of(i) << (2 * k_levels) | hilbert_key(x, y), static_cast<std::uint32_t>(i)};
+    locations[i] = {round_of(i) << (2 * k_levels) | hilbert_key(x, y), static_cast<std::uint32_t>(i)};
   }
-  std::sort(places.begin(), places.end(), [](const Place& a, const Place& b) { return a.key != b.key ? a.key < b.key : a.index < b.index; });
+  std::sort(locations.begin(), locations.end(), [](const KeyedIndex& a, const KeyedIndex& b) { return a.key != b.key ? a.key < b.key : a.index < b.index; });
   std::vector<std::uint32_t> order(n);
-  for (std::size_t i = 0; i < n; ++i) order[i] = places[i].index;
+  for (std::size_t i = 0; i < n; ++i) order[i] = locations[i].index;
   return order;
 }
 

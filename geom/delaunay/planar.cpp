@@ -27,7 +27,7 @@ void check_input(std::span<const Vec2> points, std::span<const Segment> segments
            std::to_string(points.size()));
 }
 
-bool is_same_place(const Vec2& a, const Vec2& b) { return a.x == b.x && a.y == b.y; }
+bool is_same_location(const Vec2& a, const Vec2& b) { return a.x == b.x && a.y == b.y; }
 
 /// Creates a triangle of three points and the three ghost triangles around it. \pre turn(a, b, c) > 0
 void make_first_triangle(Triangulation& mesh, VertexId a, VertexId b, VertexId c) {
@@ -53,7 +53,7 @@ bool bring_triangle_to_front(std::span<const Vec2> points, std::vector<std::uint
                 order.begin() + static_cast<std::ptrdiff_t>(from) + 1);
   };
   std::size_t second = 1;
-  while (second < order.size() && is_same_place(point(second), point(0))) ++second;
+  while (second < order.size() && is_same_location(point(second), point(0))) ++second;
   if (second >= order.size()) return false;
   bring(second, 1);
   std::size_t third = 2;
@@ -70,7 +70,7 @@ void join_points_of_line(std::span<const Vec2> points, std::vector<std::uint32_t
     return a.x != b.x ? a.x < b.x : a.y != b.y ? a.y < b.y : i < j;
   });
   for (std::size_t i = 1; i < order.size(); ++i)
-    if (is_same_place(points[order[i - 1]], points[order[i]])) same_as[order[i]] = same_as[order[i - 1]];
+    if (is_same_location(points[order[i - 1]], points[order[i]])) same_as[order[i]] = same_as[order[i - 1]];
 }
 
 /// Renumbers vertices from the order of insertion to the numbers of their points.
@@ -123,16 +123,17 @@ void insert_points(std::span<const Vec2> points, PlanarTriangulation& result, co
 
 bool PlanarCriterion::conflicts(const Triangulation& mesh, TriangleId t, VertexId p) const {
   const auto& v = mesh.cells[t].vertex;
-  const Vec2& place = mesh.uv[p];
+  const Vec2& plane_point = mesh.uv[p];
   for (std::size_t k = 0; k < 3; ++k) {
     if (v[k].is_valid()) continue;
     const Vec2 &a = mesh.uv[v[(k + 1) % 3]], &b = mesh.uv[v[(k + 2) % 3]];
-    const int side = orient2d(a, b, place);
+    const int side = orient2d(a, b, plane_point);
     if (side != 0) return side > 0;
     // A place on the line of the edge is in conflict only if it lies between the ends of the edge.
-    return a.x != b.x ? std::min(a.x, b.x) < place.x && place.x < std::max(a.x, b.x) : std::min(a.y, b.y) < place.y && place.y < std::max(a.y, b.y);
+    return a.x != b.x ? std::min(a.x, b.x) < plane_point.x && plane_point.x < std::max(a.x, b.x)
+                      : std::min(a.y, b.y) < plane_point.y && plane_point.y < std::max(a.y, b.y);
   }
-  return incircle(mesh.uv[v[0]], mesh.uv[v[1]], mesh.uv[v[2]], place) > 0;
+  return incircle(mesh.uv[v[0]], mesh.uv[v[1]], mesh.uv[v[2]], plane_point) > 0;
 }
 
 PlanarTriangulation triangulate_plane(std::span<const Vec2> points, std::span<const Segment> segments, Extent extent, const RunContext& context) {

@@ -10,18 +10,18 @@ namespace {
 /// Border vertices unchanged, then the inner ones that are in use, along the curve.
 Column<VertexId, VertexId> order_vertices(const SurfaceTriangulation& surface) {
   std::vector<VertexId> inner;
-  std::vector<Vec2> places;
+  std::vector<Vec2> locations;
   Column<VertexId, VertexId> old_id;
   for (const VertexId v : surface.mesh.uv.ids()) {
     if (surface.is_border(v)) {
       old_id.push_back(v);
     } else if (surface.mesh.outgoing[v].is_valid()) {
       inner.push_back(v);
-      places.push_back(surface.mesh.uv[v]);
+      locations.push_back(surface.mesh.uv[v]);
     }
   }
   old_id.reserve(old_id.size() + inner.size());
-  for (const std::uint32_t i : order_along_curve(places)) old_id.push_back(inner[i]);
+  for (const std::uint32_t i : order_along_curve(locations)) old_id.push_back(inner[i]);
   return old_id;
 }
 

@@ -32,7 +32,7 @@ double normal_cosine(const SurfaceTriangulation& surface, VertexId a, VertexId b
   return least;
 }
 
-bool wants_flip(const SurfaceTriangulation& surface, const Quad& q) {
+bool needs_flip(const SurfaceTriangulation& surface, const Quad& q) {
   const Point &a = surface.points[q.a], &b = surface.points[q.b], &c = surface.points[q.c], &d = surface.points[q.d];
   const Vec3 ca = a - c, cb = b - c, da = a - d, db = b - d;
   const double area_c = norm(cross(ca, cb)), area_d = norm(cross(da, db));
@@ -118,7 +118,7 @@ bool flip_pole_edge(SurfaceTriangulation& surface, HalfedgeId flat, std::vector<
   if (!find_pole_edge(surface, flat, edge)) return false;
   const VertexId pole = surface.stands_for[edge.poles.front()];
   if (edge.right == edge.left || surface.stands_for[edge.right] == pole || surface.stands_for[edge.left] == pole) return false;
-  if (!wants_flip(surface, {edge.w, pole, edge.left, edge.right})) return false;
+  if (!needs_flip(surface, {edge.w, pole, edge.left, edge.right})) return false;
   if (flip_in_turn(surface.mesh, edge.w, edge.poles, changed)) return true;
   std::reverse(edge.poles.begin(), edge.poles.end());
   return flip_in_turn(surface.mesh, edge.w, edge.poles, changed);
@@ -167,7 +167,7 @@ bool flip_to_criterion(SurfaceTriangulation& surface, HalfedgeId h, std::vector<
   if (surface.is_flat(triangle_of(h))) return flip_pole_edge(surface, h, changed);
   if (surface.is_flat(triangle_of(g))) return flip_pole_edge(surface, g, changed);
   const Quad quad{mesh.origin(h), mesh.target(h), mesh.apex(h), mesh.apex(g)};
-  if (surface.stands_for[quad.c] == surface.stands_for[quad.d] || !wants_flip(surface, quad) || !is_flip_valid(mesh, h)) return false;
+  if (surface.stands_for[quad.c] == surface.stands_for[quad.d] || !needs_flip(surface, quad) || !is_flip_valid(mesh, h)) return false;
   flip(mesh, h);
   note_quad(mesh, h, changed);
   return true;
@@ -201,11 +201,11 @@ std::size_t flip_all(SurfaceTriangulation& surface) {
 
 bool move_vertex(SurfaceTriangulation& surface, VertexId v, Uv to, const SurfaceSample& sample) {
   Triangulation& mesh = surface.mesh;
-  const Vec2 place = surface.place(to);
+  const Vec2 plane_point = surface.plane_point(to);
   bool is_valid = true;
-  for_star(mesh, v, [&](HalfedgeId h) { is_valid = is_valid && orient2d(place, mesh.uv[mesh.target(h)], mesh.uv[mesh.apex(h)]) > 0; });
+  for_star(mesh, v, [&](HalfedgeId h) { is_valid = is_valid && orient2d(plane_point, mesh.uv[mesh.target(h)], mesh.uv[mesh.apex(h)]) > 0; });
   if (!is_valid) return false;
-  mesh.uv[v] = place;
+  mesh.uv[v] = plane_point;
   surface.points[v] = sample.point;
   surface.frames[v] = sample.frame;
   return true;

@@ -16,8 +16,8 @@ constexpr const char* k_border_attempt = "triangulating the border of a face";
 [[noreturn]] void throw_in_space(const Error& error, const SurfaceBorder& border, Vec2 scale) {
   ErrorInfo info = error.info();
   info.attempted = k_border_attempt;
-  for (ErrorPlace& place : info.places) {
-    const Vec2 at{place.position.x, place.position.y};
+  for (ErrorLocation& location : info.locations) {
+    const Vec2 at{location.position.x, location.position.y};
     std::size_t nearest = 0;
     double best = std::numeric_limits<double>::infinity();
     for (std::size_t i = 0; i < border.uv.size(); ++i) {
@@ -27,8 +27,8 @@ constexpr const char* k_border_attempt = "triangulating the border of a face";
         nearest = i;
       }
     }
-    place.what = "near this point of the border, at (u, v) = (" + std::to_string(at.x / scale.x) + ", " + std::to_string(at.y / scale.y) + ")";
-    place.position = border.samples[nearest].point;
+    location.what = "near this point of the border, at (u, v) = (" + std::to_string(at.x / scale.x) + ", " + std::to_string(at.y / scale.y) + ")";
+    location.position = border.samples[nearest].point;
   }
   info.geometry = {};
   throw Error(std::move(info));
@@ -37,7 +37,7 @@ constexpr const char* k_border_attempt = "triangulating the border of a face";
 /// Checks that every segment of a loop is an edge of the domain's border. Where two borders touch along a line, or a vertex lies on another segment, it is not,
 /// and the neighbouring face would not match.
 void check_segments(const Triangulation& mesh, const std::vector<Segment>& segments, const std::vector<VertexId>& same_as, const SurfaceBorder& border) {
-  std::vector<std::array<std::uint32_t, 2>> edges, wanted;
+  std::vector<std::array<std::uint32_t, 2>> edges, required;
   for (const TriangleId t : mesh.cells.ids())
     for (std::uint32_t c = 0; c < 3; ++c)
       if (!mesh.cells[t].twin[c].is_valid()) {
@@ -49,10 +49,11 @@ void check_segments(const Triangulation& mesh, const std::vector<Segment>& segme
   for (const Segment& s : segments) {
     const std::uint32_t a = same_as[s.from].value(), b = same_as[s.to].value();
     if (a != b && std::binary_search(edges.begin(), edges.end(), std::array<std::uint32_t, 2>{std::min(a, b), std::max(a, b)})) continue;
-    ++info.n_places;
-    if (info.places.size() < 10) info.places.push_back({border.samples[s.from].point, "segment of the border to " + format_point(border.samples[s.to].point)});
+    ++info.n_locations;
+    if (info.locations.size() < 10)
+      info.locations.push_back({border.samples[s.from].point, "segment of the border to " + format_point(border.samples[s.to].point)});
   }
-  if (info.n_places == 0) return;
+  if (info.n_locations == 0) return;
   info.hint = "borders may meet only in single points; merge a face this narrow with its neighbours";
   throw Error(std::move(info));
 }
@@ -67,15 +68,15 @@ double scale_of_speed(double speed) {
 }
 
 SurfaceTriangulation triangulate_border(const SurfaceBorder& border, Vec2 scale, const RunContext& context) {
-  std::vector<Vec2> places;
-  for (const Uv& at : border.uv) places.push_back({at.u * scale.x, at.v * scale.y});
+  std::vector<Vec2> locations;
+  for (const Uv& at : border.uv) locations.push_back({at.u * scale.x, at.v * scale.y});
   std::vector<Segment> segments;
   for (const auto& loop : border.loops)
     for (std::size_t i = 0; i < loop.size(); ++i) segments.push_back({loop[i], loop[(i + 1) % loop.size()], true});
   SurfaceTriangulation surface;
   std::vector<VertexId> same_as;
   try {
-    PlanarTriangulation plane = triangulate_plane(places, segments, Extent::inside, context);
+    PlanarTriangulation plane = triangulate_plane(locations, segments, Extent::inside, context);
     surface.mesh = std::move(plane.mesh);
     same_as = std::move(plane.same_as);
   } catch (const Error& error) {
@@ -84,7 +85,7 @@ SurfaceTriangulation triangulate_border(const SurfaceBorder& border, Vec2 scale,
   }
   if (surface.mesh.cells.empty()) {
     ErrorInfo info{.code = ErrorCode::bad_argument, .attempted = k_border_attempt, .problem = "the border encloses no area in (u, v)"};
-    if (!border.samples.empty()) info.places.push_back({border.samples[0].point, "first point of the border"});
+    if (!border.samples.empty()) info.locations.push_back({border.samples[0].point, "first point of the border"});
     throw Error(std::move(info));
   }
   check_segments(surface.mesh, segments, same_as, border);

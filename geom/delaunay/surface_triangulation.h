@@ -46,7 +46,7 @@ struct SurfaceTriangulation {
   Vec2 scale{1.0, 1.0};                   ///< powers of two, so that parameters are recovered to the bit
 
   Uv parameters(VertexId v) const { return {mesh.uv[v].x / scale.x, mesh.uv[v].y / scale.y}; }
-  Vec2 place(Uv at) const { return {at.u * scale.x, at.v * scale.y}; }
+  Vec2 plane_point(Uv at) const { return {at.u * scale.x, at.v * scale.y}; }
   bool is_border(VertexId v) const { return v.value() < n_border; }
   /// Returns true if two corners are the same point of a pole.
   bool is_flat(TriangleId t) const {
@@ -134,12 +134,12 @@ template <class Criterion>
 InsertOutcome insert_vertex(SurfaceTriangulation& surface, Uv at, const SurfaceSample& sample, TriangleId near, double min_distance, const Criterion& criterion,
                             Cavity& cavity) {
   Triangulation& mesh = surface.mesh;
-  const Vec2 place = surface.place(at);
-  const Location location = locate(mesh, place, near, k_walk_limit);
+  const Vec2 plane_point = surface.plane_point(at);
+  const Location location = locate(mesh, plane_point, near, k_walk_limit);
   if (location.kind == Location::Kind::on_vertex) return InsertOutcome::too_near;
   if (location.kind != Location::Kind::inside && location.kind != Location::Kind::on_edge) return InsertOutcome::beyond_border;
   if (location.kind == Location::Kind::on_edge && mesh.is_constrained(location.halfedge)) return InsertOutcome::beyond_border;
-  const VertexId p = mesh.uv.push_back(place);
+  const VertexId p = mesh.uv.push_back(plane_point);
   surface.points.push_back(sample.point);
   surface.frames.push_back(sample.frame);
   const auto take_back = [&](InsertOutcome outcome) {

@@ -147,11 +147,11 @@ std::optional<Sphere> sphere_of(const std::string& text) {
   return Sphere{*center, length[0]};
 }
 
-const CutPlace& place_of(std::span<const CutPlace> places, const std::string& name, std::string_view attempted, std::string_view what) {
-  for (const CutPlace& place : places)
-    if (place.name == lower(name)) return place;
+const CutLocation& location_of(std::span<const CutLocation> locations, const std::string& name, std::string_view attempted, std::string_view what) {
+  for (const CutLocation& location : locations)
+    if (location.name == lower(name)) return location;
   std::vector<std::string> known;
-  for (const CutPlace& place : places) known.push_back(place.name);
+  for (const CutLocation& location : locations) known.push_back(location.name);
   throw_unknown(attempted, what, name, known, known.empty() ? "the mesh has no named locations" : "");
 }
 

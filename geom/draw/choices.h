@@ -8,7 +8,7 @@
 #include <vector>
 
 #include "geom/draw/draw_options.h"
-#include "geom/mesh/cut_places.h"
+#include "geom/mesh/cut_locations.h"
 
 namespace sterna::draw {
 
@@ -31,7 +31,7 @@ std::optional<Sphere> sphere_of(const std::string& text);
 
 /// Returns the location of that name (case-insensitive).
 /// \throws Error(bad_argument) with the existing names; `attempted` is the caller ("draw"), `what` the purpose ("cut")
-const CutPlace& place_of(std::span<const CutPlace> places, const std::string& name, std::string_view attempted, std::string_view what);
+const CutLocation& location_of(std::span<const CutLocation> locations, const std::string& name, std::string_view attempted, std::string_view what);
 
 /// Throws for an unknown name. \throws Error(unknown_option) with the known names and a suggestion
 [[noreturn]] void throw_unknown(std::string_view attempted, std::string_view what, const std::string& given, std::span<const std::string> known,

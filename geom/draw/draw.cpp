@@ -109,10 +109,11 @@ std::vector<DrawMark> marks_of(const CheckReport& report) {
   }
   for (const GateState state : {GateState::fail, GateState::warn})
     for (const GateResult& gate : report.gates) {
-      if (gate.state != state || gate.places.empty()) continue;
+      if (gate.state != state || gate.locations.empty()) continue;
       const MeasureInfo& info = info_of(gate.measure);
-      marks.push_back({gate.places.front().position, std::string(info.gate) + " " + std::string(info.title) + " " +
-                                                         number_text(in_report_unit(info, gate.places.front().value), 3) + (info.is_angle ? " deg" : "")});
+      marks.push_back({gate.locations.front().position, std::string(info.gate) + " " + std::string(info.title) + " " +
+                                                            number_text(in_report_unit(info, gate.locations.front().value), 3) +
+                                                            (info.is_angle ? " deg" : "")});
     }
   return marks;
 }

@@ -50,9 +50,9 @@ class SceneBuilder {
   }
 
  private:
-  const std::vector<CutPlace>& places() {
-    if (!places_) places_ = automatic_cuts(mesh_, context_);
-    return *places_;
+  const std::vector<CutLocation>& locations() {
+    if (!locations_) locations_ = automatic_cuts(mesh_, context_);
+    return *locations_;
   }
 
   void choose_patches() {
@@ -83,17 +83,17 @@ class SceneBuilder {
   void choose_plane() {
     scene_.focus = sphere_of(options_.focus);
     if (!scene_.focus && options_.focus != "automatic") {
-      const CutPlace& place = place_of(places(), options_.focus, "draw", "place");
-      scene_.focus = Sphere{place.focus, place.radius};
+      const CutLocation& location = location_of(locations(), options_.focus, "draw", "place");
+      scene_.focus = Sphere{location.focus, location.radius};
     }
     if (options_.cut == "none") return;
     if (count_cells(mesh_).total() == 0)
       throw Error({.code = ErrorCode::bad_argument, .attempted = "draw: option cut", .problem = "a surface has no cells to cut", .hint = "draw a volume mesh"});
     plane_ = plane_of(options_.cut);
     if (!plane_) {
-      const CutPlace& place = place_of(places(), options_.cut, "draw", "cut");
-      plane_ = place.plane;
-      if (!scene_.focus) scene_.focus = Sphere{place.focus, place.radius};
+      const CutLocation& location = location_of(locations(), options_.cut, "draw", "cut");
+      plane_ = location.plane;
+      if (!scene_.focus) scene_.focus = Sphere{location.focus, location.radius};
     }
     if (!scene_.focus) scene_.focus = section_of_walls();
   }
@@ -152,12 +152,12 @@ class SceneBuilder {
                    .attempted = "draw: option cut",
                    .problem = "the plane crosses no cell within " + in_metres(scene_.focus->radius) + " of " + format_point(scene_.focus->center) +
                               ", the region shown; " + clear_plane_text(mesh_, *plane_),
-                   .hint = "locations of the mesh are " + names_of_places()});
+                   .hint = "locations of the mesh are " + names_of_locations()});
   }
 
-  std::string names_of_places() {
+  std::string names_of_locations() {
     std::string names;
-    for (const CutPlace& place : places()) names += (names.empty() ? "" : ", ") + place.name;
+    for (const CutLocation& location : locations()) names += (names.empty() ? "" : ", ") + location.name;
     return names;
   }
 
@@ -318,7 +318,7 @@ class SceneBuilder {
   std::vector<std::uint8_t> is_shown_;  ///< by patch
   std::vector<std::size_t> shown_;      ///< boundary faces whose polygons are in the scene, in their order
   std::optional<CutPlane> plane_;
-  std::optional<std::vector<CutPlace>> places_;
+  std::optional<std::vector<CutLocation>> locations_;
   MeshCut cut_;
   std::vector<Point> piece_;
 };

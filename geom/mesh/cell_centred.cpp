@@ -38,7 +38,7 @@ void add_stacked(CellCentredScan& scan, std::uint64_t id, const InnerFace& face)
   scan.stacked_skewness.add(face.skewness, id);
 }
 
-void add_outer(CellCentredScan& scan, std::uint64_t id, std::span<const Point> corners, const Place& cell) {
+void add_outer(CellCentredScan& scan, std::uint64_t id, std::span<const Point> corners, const CellCentre& cell) {
   const OuterFace face = outer_face(corners, cell);
   scan.skewness.add(face.skewness, id);
   if (corners.size() == 4) scan.face_flatness.add(face.flatness, id);
@@ -139,12 +139,12 @@ class ColumnCentres {
         stride_(n_layers_ + lanes::k_width),
         own_(mesh),
         beyond_(mesh),
-        places_beyond_(stride_) {}
+        locations_beyond_(stride_) {}
 
   void add(std::size_t begin, std::size_t end, CellCentredScan& scan) {
     begin_ = begin;
     end_ = end;
-    places_.resize((end - begin) * stride_);
+    locations_.resize((end - begin) * stride_);
     for (std::size_t c = begin; c < end; ++c) {
       if (mesh_.layers.is_prismatic(c)) add_prisms(c, scan);
       else add_cells(c, scan);
@@ -156,30 +156,30 @@ class ColumnCentres {
   }
 
  private:
-  Place* places_of(std::size_t column) { return places_.data() + (column - begin_) * stride_; }
+  CellCentre* locations_of(std::size_t column) { return locations_.data() + (column - begin_) * stride_; }
 
   /// Returns the places of a column after a given one.
-  const Place* places_after(std::size_t column) {
-    if (column < end_) return places_of(column);
+  const CellCentre* locations_after(std::size_t column) {
+    if (column < end_) return locations_of(column);
     if (mesh_.layers.is_prismatic(column)) {
       beyond_.read(column);
-      beyond_.places(places_beyond_.data());
+      beyond_.locations(locations_beyond_.data());
     } else {
       for (int j = 0, n = mesh_.layers.layers_of_column(column); j < n; ++j) {
         const CellShape shape = cell_shape(mesh_, mesh_.layers.cell(column, j));
-        places_beyond_[static_cast<std::size_t>(j)] = {shape.centre, shape.volume};
+        locations_beyond_[static_cast<std::size_t>(j)] = {shape.centre, shape.volume};
       }
     }
-    return places_beyond_.data();
+    return locations_beyond_.data();
   }
 
   void add_prisms(std::size_t c, CellCentredScan& scan) {
     own_.read(c);
     const std::span<const CellShape> cells = own_.cells();
-    Place* const places = places_of(c);
+    CellCentre* const locations = locations_of(c);
     for (std::size_t j = 0; j < cells.size(); ++j) {
       const std::uint64_t number = c * n_layers_ + j;
-      places[j] = {cells[j].centre, cells[j].volume};
+      locations[j] = {cells[j].centre, cells[j].volume};
       scan.cell_aspect_ratio.add(cells[j].aspect_ratio, number);
       scan.cell_openness.add(cells[j].openness, number);
       if (is_amid_columns(mesh_.layers, neighbours_, c, static_cast<int>(j))) scan.cell_determinant.add(cells[j].determinant, number);
@@ -187,11 +187,11 @@ class ColumnCentres {
   }
 
   void add_cells(std::size_t c, CellCentredScan& scan) {
-    Place* const places = places_of(c);
+    CellCentre* const locations = locations_of(c);
     for (int j = 0, n = mesh_.layers.layers_of_column(c); j < n; ++j) {
       const std::uint64_t number = c * n_layers_ + static_cast<std::uint64_t>(j);
       const CellShape shape = cell_shape(mesh_, mesh_.layers.cell(c, j));
-      places[j] = {shape.centre, shape.volume};
+      locations[j] = {shape.centre, shape.volume};
       scan.cell_aspect_ratio.add(shape.aspect_ratio, number);
       scan.cell_openness.add(shape.openness, number);
     }
@@ -200,12 +200,12 @@ class ColumnCentres {
   void add_faces_of_prisms(std::size_t c, CellCentredScan& scan) {
     own_.read(c);
     const std::uint64_t first = 8 * c * n_layers_;
-    const std::span<const InnerFace> tops = own_.tops(places_of(c));
+    const std::span<const InnerFace> tops = own_.tops(locations_of(c));
     for (std::size_t j = 0; j < tops.size(); ++j) add_stacked(scan, first + 8 * j + k_top, tops[j]);
     for (std::size_t k = 0; k < 3; ++k) {
       const std::uint32_t other = neighbours_[3 * c + k];
       if (other == k_no_slot || other < c) continue;
-      const std::span<const InnerFace> sides = own_.side(k, places_of(c), places_after(other));
+      const std::span<const InnerFace> sides = own_.side(k, locations_of(c), locations_after(other));
       for (std::size_t j = 0; j < sides.size(); ++j) add_face(scan, first + 8 * j + k, sides[j], true);
     }
   }
@@ -213,16 +213,16 @@ class ColumnCentres {
   void add_faces(std::size_t c, CellCentredScan& scan) {
     const int n = mesh_.layers.layers_of_column(c);
     const std::uint64_t first = 8 * c * n_layers_;
-    const Place* const places = places_of(c);
+    const CellCentre* const locations = locations_of(c);
     for (int j = 0; j + 1 < n; ++j)
-      add_stacked(scan, first + 8 * static_cast<std::uint64_t>(j) + k_top, inner_face(top_of(mesh_, c, j).span(), places[j], places[j + 1]));
+      add_stacked(scan, first + 8 * static_cast<std::uint64_t>(j) + k_top, inner_face(top_of(mesh_, c, j).span(), locations[j], locations[j + 1]));
     for (std::size_t k = 0; k < 3; ++k) {
       const std::uint32_t other = neighbours_[3 * c + k];
       if (other == k_no_slot || other < c) continue;
-      const Place* const beyond = places_after(other);
+      const CellCentre* const beyond = locations_after(other);
       for (int j = 0; j < n; ++j) {
         const Corners side = side_of(mesh_, c, k, j);
-        if (side.n >= 3) add_face(scan, first + 8 * static_cast<std::uint64_t>(j) + k, inner_face(side.span(), places[j], beyond[j]), side.n == 4);
+        if (side.n >= 3) add_face(scan, first + 8 * static_cast<std::uint64_t>(j) + k, inner_face(side.span(), locations[j], beyond[j]), side.n == 4);
       }
     }
   }
@@ -232,7 +232,7 @@ class ColumnCentres {
   std::uint64_t n_layers_, stride_;
   std::size_t begin_ = 0, end_ = 0;
   ColumnShapes own_, beyond_;
-  std::vector<Place> places_, places_beyond_;
+  std::vector<CellCentre> locations_, locations_beyond_;
 };
 
 /// Explicit tetrahedra and the faces between them, four at a time.
@@ -240,7 +240,7 @@ class TetLanes {
  public:
   explicit TetLanes(const HybridMesh& mesh) : mesh_(mesh) {}
 
-  static Place place(const HybridMesh& mesh, std::uint32_t tet) {
+  static CellCentre location(const HybridMesh& mesh, std::uint32_t tet) {
     const auto& n = mesh.tetrahedra[tet];
     const Point &a = mesh.points[n[0]], &b = mesh.points[n[1]], &c = mesh.points[n[2]], &d = mesh.points[n[3]];
     return {(a + b + c + d) * 0.25, dot(b - a, cross(c - a, d - a)) / 6.0};
@@ -268,10 +268,10 @@ class TetLanes {
   /// Adds a face between two tets; it is measured together with the following faces.
   void add_face(std::uint64_t id, const Face& face, std::uint32_t tet, std::uint32_t other, CellCentredScan& scan) {
     for (std::size_t i = 0; i < 3; ++i) lanes::set_lane(corners_[i], n_, mesh_.points[face.nodes[i]]);
-    const auto set = [&](lanes::Places& places, std::uint32_t of) {
-      const Place one = place(mesh_, of);
-      lanes::set_lane(places.centre, n_, one.centre);
-      places.volume[n_] = one.volume;
+    const auto set = [&](lanes::CellCentres& locations, std::uint32_t of) {
+      const CellCentre one = location(mesh_, of);
+      lanes::set_lane(locations.centre, n_, one.centre);
+      locations.volume[n_] = one.volume;
     };
     set(here_, tet);
     set(there_, other);
@@ -290,7 +290,7 @@ class TetLanes {
   std::size_t n_ = 0;
   std::array<std::uint64_t, lanes::k_width> ids_{};
   std::array<lanes::Vec3x4, 3> corners_{};
-  lanes::Places here_{}, there_{};
+  lanes::CellCentres here_{}, there_{};
   lanes::Packed determinants_{};
 };
 
@@ -359,7 +359,7 @@ class OtherCentres {
       if (!slots_.is_layer(a) && !slots_.is_layer(b)) {
         four.add_face(id, face, slots_.tet_of(a), slots_.tet_of(b), scan);
       } else {
-        add_face(scan, id, inner_face(corners_of(mesh_, face).span(), place(slots_.owner(a)), place(slots_.owner(b))), face.size == 4);
+        add_face(scan, id, inner_face(corners_of(mesh_, face).span(), location(slots_.owner(a)), location(slots_.owner(b))), face.size == 4);
       }
     }
     four.flush(scan);
@@ -368,13 +368,13 @@ class OtherCentres {
   void add_outer_faces(std::size_t begin, std::size_t end, CellCentredScan& scan) const {
     for (std::size_t i = begin; i < end; ++i) {
       const std::uint32_t slot = match_.outer[i];
-      add_outer(scan, CellCentredScan::k_of_slot + slot, corners_of(mesh_, slots_.face(slot)).span(), place(slots_.owner(slot)));
+      add_outer(scan, CellCentredScan::k_of_slot + slot, corners_of(mesh_, slots_.face(slot)).span(), location(slots_.owner(slot)));
     }
   }
 
  private:
-  Place place(std::uint64_t number) const {
-    if (number >= cells_.first_tetrahedron()) return TetLanes::place(mesh_, static_cast<std::uint32_t>(number - cells_.first_tetrahedron()));
+  CellCentre location(std::uint64_t number) const {
+    if (number >= cells_.first_tetrahedron()) return TetLanes::location(mesh_, static_cast<std::uint32_t>(number - cells_.first_tetrahedron()));
     if (number >= cells_.first_prism()) return kept_[number - cells_.first_prism()];
     const CellShape shape = cell_shape(mesh_, cells_.cell(number));
     return {shape.centre, shape.volume};
@@ -386,7 +386,7 @@ class OtherCentres {
   const FaceMatch& match_;
   std::span<const std::uint32_t> neighbours_;
   OuterFaces outer_;
-  std::vector<Place> kept_;  ///< explicit cells except tetrahedra
+  std::vector<CellCentre> kept_;  ///< explicit cells except tetrahedra
 };
 
 /// Items with the ids of CellCentredScan.
@@ -401,7 +401,7 @@ struct CentredFaceItems {
   }
   void gather(std::uint64_t id, GateExtent& extent) const {
     if (id >= CellCentredScan::k_of_slot) return SlotItems{slots, {}}.gather(id - CellCentredScan::k_of_slot, extent);
-    const auto [column, layer] = place_of(id);
+    const auto [column, layer] = location_of(id);
     if (id % 8 == k_top) {
       std::array<NodeId, 3> nodes;
       for (std::size_t k = 0; k < 3; ++k) nodes[k] = mesh.layers.node(mesh.layers.base[column][k], layer + 1);
@@ -413,12 +413,12 @@ struct CentredFaceItems {
   }
 
  private:
-  std::pair<std::size_t, int> place_of(std::uint64_t id) const {
+  std::pair<std::size_t, int> location_of(std::uint64_t id) const {
     const std::uint64_t number = id / 8, n_layers = static_cast<std::uint64_t>(mesh.layers.n_layers);
     return {number / n_layers, static_cast<int>(number % n_layers)};
   }
   Corners corners_of_column(std::uint64_t id) const {
-    const auto [column, layer] = place_of(id);
+    const auto [column, layer] = location_of(id);
     return id % 8 == k_top ? top_of(mesh, column, layer) : side_of(mesh, column, id % 8, layer);
   }
 };

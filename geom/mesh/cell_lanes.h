@@ -15,13 +15,13 @@ struct FaceShapes {
   Packed flatness;
 };
 
-struct Places {
+struct CellCentres {
   Vec3x4 centre;
   Packed volume;
 };
 
 struct CellShapes {
-  Places place;
+  CellCentres location;
   Packed aspect_ratio, openness, determinant;
 };
 
@@ -31,10 +31,10 @@ struct InnerFaces {
 
 inline Vec3 lane(const Vec3x4& v, std::size_t k) { return {v.x[k], v.y[k], v.z[k]}; }
 inline void set_lane(Vec3x4& v, std::size_t k, const Vec3& value) { v.x[k] = value.x, v.y[k] = value.y, v.z[k] = value.z; }
-inline check_parts::Place lane(const Places& p, std::size_t k) { return {lane(p.centre, k), p.volume[k]}; }
+inline check_parts::CellCentre lane(const CellCentres& p, std::size_t k) { return {lane(p.centre, k), p.volume[k]}; }
 /// Loads four consecutive places from memory.
-inline Places load(const check_parts::Place* at) {
-  static_assert(sizeof(check_parts::Place) == 4 * sizeof(double));
+inline CellCentres load(const check_parts::CellCentre* at) {
+  static_assert(sizeof(check_parts::CellCentre) == 4 * sizeof(double));
   const auto* values = reinterpret_cast<const double*>(at);
   const Packed a = _mm256_loadu_pd(values), b = _mm256_loadu_pd(values + 4), c = _mm256_loadu_pd(values + 8), d = _mm256_loadu_pd(values + 12);
   const Packed ab_low = _mm256_unpacklo_pd(a, b), ab_high = _mm256_unpackhi_pd(a, b), cd_low = _mm256_unpacklo_pd(c, d), cd_high = _mm256_unpackhi_pd(c, d);
@@ -98,7 +98,7 @@ inline Packed cube_ratio(Packed area, Packed volume, Packed least) {
 
 /// Sums over the faces of a cell.
 struct CellSums {
-  Places place;
+  CellCentres location;
   Vec3x4 area, sizes;
 };
 
@@ -119,24 +119,24 @@ CellSums cell_sums(const std::array<FaceShapes, N>& faces) {
   }
   const auto has_volume = magnitude(total) > all(0.0);
   const Vec3x4 centre = weighted / total;
-  sums.place.centre = {has_volume ? centre.x : guess.x, has_volume ? centre.y : guess.y, has_volume ? centre.z : guess.z};
-  sums.place.volume = total / all(3.0);
+  sums.location.centre = {has_volume ? centre.x : guess.x, has_volume ? centre.y : guess.y, has_volume ? centre.z : guess.z};
+  sums.location.volume = total / all(3.0);
   return sums;
 }
 
 template <std::size_t N>
-Places cell_places(const std::array<FaceShapes, N>& faces) {
-  return cell_sums(faces).place;
+CellCentres cell_locations(const std::array<FaceShapes, N>& faces) {
+  return cell_sums(faces).location;
 }
 
 template <std::size_t N>
 CellShapes cell_shapes(const std::array<FaceShapes, N>& faces) {
-  const auto [place, area, sizes] = cell_sums(faces);
+  const auto [location, area, sizes] = cell_sums(faces);
   CellShapes shapes;
-  shapes.place = place;
+  shapes.location = location;
   const Packed low = least(least(sizes.x, sizes.y), sizes.z), high = most(most(sizes.x, sizes.y), sizes.z);
   const Packed by_axes = high / (low + check_parts::k_tiny);
-  shapes.aspect_ratio = most(by_axes, cube_ratio(sizes.x + sizes.y + sizes.z, place.volume, by_axes));
+  shapes.aspect_ratio = most(by_axes, cube_ratio(sizes.x + sizes.y + sizes.z, location.volume, by_axes));
   shapes.openness = most(most(magnitude(area.x) / (sizes.x + check_parts::k_tiny), magnitude(area.y) / (sizes.y + check_parts::k_tiny)),
                          magnitude(area.z) / (sizes.z + check_parts::k_tiny));
   shapes.determinant = determinants(faces);
@@ -184,7 +184,7 @@ TetPowers tet_powers(const FaceShapes& face, const std::array<Vec3x4, N>& corner
 
 /// \param n_used number of valid lanes; the other lanes may hold any values
 template <std::size_t N>
-InnerFaces inner_faces(const std::array<Vec3x4, N>& corners, const FaceShapes& face, const Places& a, const Places& b, std::size_t n_used) {
+InnerFaces inner_faces(const std::array<Vec3x4, N>& corners, const FaceShapes& face, const CellCentres& a, const CellCentres& b, std::size_t n_used) {
   using check_parts::k_tiny;
   InnerFaces result;
   const Vec3x4 d = b.centre - a.centre;

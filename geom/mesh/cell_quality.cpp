@@ -198,7 +198,7 @@ double face_tet_quality(const FaceShape& face, std::span<const Point> corners, c
 
 }  // namespace
 
-InnerFace inner_face(std::span<const Point> corners, const Place& a, const Place& b) {
+InnerFace inner_face(std::span<const Point> corners, const CellCentre& a, const CellCentre& b) {
   const FaceShape face = face_shape(corners);
   const Vec3 d = b.centre - a.centre;
   const double cosine = dot(d, face.area) / (norm(d) * norm(face.area) + k_tiny);
@@ -211,7 +211,7 @@ InnerFace inner_face(std::span<const Point> corners, const Place& a, const Place
           .tets = face_tet_quality(face, corners, a.centre, &b.centre)};
 }
 
-OuterFace outer_face(std::span<const Point> corners, const Place& cell) {
+OuterFace outer_face(std::span<const Point> corners, const CellCentre& cell) {
   const FaceShape face = face_shape(corners);
   const Vec3 normal = face.area / (norm(face.area) + k_tiny);
   return {.skewness = skewness_of(face, corners, cell.centre, dot(normal, face.centre - cell.centre) * normal, k_boundary_reach),

@@ -42,7 +42,7 @@ struct CellShape {
 CellShape cell_shape(const HybridMesh& mesh, const Cell& cell, unsigned inner = ~0u);
 
 /// Centre and volume of a cell, as needed for its faces.
-struct Place {
+struct CellCentre {
   Point centre;
   double volume = 0.0;  ///< m^3
 };
@@ -55,14 +55,14 @@ struct InnerFace {
   double tets = 0.0;
 };
 /// \pre 3 or 4 corners, normal from a to b
-InnerFace inner_face(std::span<const Point> corners, const Place& a, const Place& b);
+InnerFace inner_face(std::span<const Point> corners, const CellCentre& a, const CellCentre& b);
 
 /// Measures of a face of one cell; measures that need two cells are left out.
 struct OuterFace {
   double skewness = 0.0, flatness = 1.0, tets = 0.0;
 };
 /// \pre 3 or 4 corners, normal out of the cell
-OuterFace outer_face(std::span<const Point> corners, const Place& cell);
+OuterFace outer_face(std::span<const Point> corners, const CellCentre& cell);
 
 /// Returns the quality of checkMesh's face decomposition for tracking. On both sides of the face, all tets around the face centre must be positive, and so must
 /// the tets of the best of its cuts into triangles. For a triangle both sets have the same quality. `other`: null at the boundary.

@@ -90,7 +90,7 @@ CheckReport check(const HybridMesh& mesh, const CheckOptions& options, const Run
       LazyGivenLayer given(mesh);
       judge_gates(mesh, cells, slots, match, scan, dual ? &*dual : nullptr, options.limits, given, context, report);
       judge_cell_centres(known, mesh, cells, slots, match, neighbours, options, given, context, report);
-      count_places(mesh, cells, context, report);
+      count_locations(mesh, cells, context, report);
       report.restrict_to(options.consumers);
       report.quality_measured = true;
     }

@@ -83,10 +83,10 @@ struct PeriodicMatchReport {
 };
 
 /// Locations of the gates that decide the verdict for one solver class: gates that FAIL, or if none fails, gates that warn.
-struct ConsumerPlaces {
+struct ConsumerLocations {
   Consumer consumer = Consumer::cell_centred;
-  std::optional<std::int64_t> n_places;  ///< number of separate locations; empty if these gates have no locations, or some have too many items to be kept
-  std::int64_t n_beyond = 0;             ///< cells, or nodes for node-centred solvers; gates with too many items to be kept are left out
+  std::optional<std::int64_t> n_locations;  ///< number of separate locations; empty if these gates have no locations, or some have too many items to be kept
+  std::int64_t n_beyond = 0;                ///< cells, or nodes for node-centred solvers; gates with too many items to be kept are left out
 };
 
 struct CheckReport {
@@ -100,22 +100,22 @@ struct CheckReport {
   double total_volume = 0.0;
   double dual_volume = 0.0;  ///< m^3, sum of all control volumes; equals total_volume to rounding
   Quality quality;
-  std::vector<GateResult> gates;               ///< QUALITY, in the order of Measure; empty if quality was not requested
-  std::vector<ConsumerPlaces> verdict_places;  ///< in the order of k_consumers; empty if `gates` is empty
-  Consumers consumers;                         ///< consumers that the states of `gates` refer to
-  std::vector<PatchCoverage> coverage;         ///< per wall patch under layers, if the mesh has a layer request
-  std::vector<PeriodicMatchReport> periodic;   ///< matching pairs of HybridMesh::periodic
-  bool is_complete = true;                     ///< false: indices are out of range or points are not finite, so that no other check was possible
-  bool intersections_checked = false;          ///< G2 was requested and run
-  bool dual_checked = false;                   ///< G4 was run; it needs faces that conform
-  bool quality_measured = false;               ///< `quality` and `gates` are filled
+  std::vector<GateResult> gates;                     ///< QUALITY, in the order of Measure; empty if quality was not requested
+  std::vector<ConsumerLocations> verdict_locations;  ///< in the order of k_consumers; empty if `gates` is empty
+  Consumers consumers;                               ///< consumers that the states of `gates` refer to
+  std::vector<PatchCoverage> coverage;               ///< per wall patch under layers, if the mesh has a layer request
+  std::vector<PeriodicMatchReport> periodic;         ///< matching pairs of HybridMesh::periodic
+  bool is_complete = true;                           ///< false: indices are out of range or points are not finite, so that no other check was possible
+  bool intersections_checked = false;                ///< G2 was requested and run
+  bool dual_checked = false;                         ///< G4 was run; it needs faces that conform
+  bool quality_measured = false;                     ///< `quality` and `gates` are filled
   bool is_valid() const { return counts.empty(); }
   /// Returns the worst state of the QUALITY gates; not_checked if no gate was checked.
   GateState quality_state() const;
   /// Returns the worst state for one solver class.
   GateState quality_state(Consumer consumer) const;
   /// Keeps the states of gates that at least one of these consumers uses and sets the others to "not checked". Values are kept.
-  void restrict_to(Consumers asked);
+  void restrict_to(Consumers requested);
   /// Returns true if the measure belongs to a selected consumer.
   bool is_shown(const GateResult& gate) const { return info_of(gate.measure).consumers.has_any_of(consumers); }
   /// Returns the number of hard-limit violations over all measures that are proven to be forced by the given boundary. They do not FAIL.

@@ -13,7 +13,7 @@ namespace sterna {
 namespace {
 
 /// Maximum number of locations in the report.
-constexpr std::size_t k_most_lost_places = 10;
+constexpr std::size_t k_most_lost_locations = 10;
 
 /// Returns the determinant of three vectors over the product of their lengths; zero if one length is zero.
 double relative_determinant(const Vec3& a, const Vec3& b, const Vec3& c) {
@@ -44,7 +44,7 @@ double least_of_hexahedron(std::span<const Vec3> p) {
   return least;
 }
 
-Point mean_place(std::span<const Vec3> p, std::span<const std::uint8_t> nodes) {
+Point mean_location(std::span<const Vec3> p, std::span<const std::uint8_t> nodes) {
   Point sum;
   for (const std::uint8_t k : nodes) sum += p[k];
   return sum / static_cast<double>(nodes.size());
@@ -64,10 +64,10 @@ double least_computed_jacobian(CellKind kind, std::span<const Vec3> p) {
 
 double least_computed_sub_volume(CellKind kind, std::span<const Vec3> p) {
   constexpr std::array<std::uint8_t, 8> k_all = {0, 1, 2, 3, 4, 5, 6, 7};
-  const Point centre = mean_place(p, std::span(k_all).first(p.size()));
+  const Point centre = mean_location(p, std::span(k_all).first(p.size()));
   double least = std::numeric_limits<double>::infinity();
   for (const LocalFace& face : cell_faces(kind)) {
-    const Point middle = mean_place(p, std::span(face.nodes).first(face.size));
+    const Point middle = mean_location(p, std::span(face.nodes).first(face.size));
     for (std::size_t k = 0; k < face.size; ++k) {
       // The face runs a, b with its normal out of the cell, so the tet (a, mid-edge, face, cell) has the opposite orientation.
       const Point &a = p[face.nodes[k]], &b = p[face.nodes[(k + 1u) % face.size]];
@@ -131,10 +131,10 @@ LostCells cells_lost_by_rounding(const HybridMesh& mesh, std::span<const Point> 
   search.add(
       context, first, n_explicit, [&](std::size_t i) { return cells.cell(first + i); }, lost);
 
-  LostCells result{.n = static_cast<std::int64_t>(lost.size()), .places = {}};
-  for (std::size_t i = 0; i < std::min(lost.size(), k_most_lost_places); ++i) {
+  LostCells result{.n = static_cast<std::int64_t>(lost.size()), .locations = {}};
+  for (std::size_t i = 0; i < std::min(lost.size(), k_most_lost_locations); ++i) {
     const Point centre = cells.center(lost[i]);
-    result.places.push_back({centre, cells.name(lost[i]) + check_parts::near_patch(mesh, centre)});
+    result.locations.push_back({centre, cells.name(lost[i]) + check_parts::near_patch(mesh, centre)});
   }
   return result;
 }

@@ -8,9 +8,9 @@
 
 #include "geom/base/disjoint_sets.h"
 #include "geom/math/measures.h"
+#include "geom/mesh/baffles.h"
 #include "geom/mesh/bvh.h"
 #include "geom/mesh/check_parts.h"
-#include "geom/mesh/sheets.h"
 
 namespace sterna::check_parts {
 namespace {
@@ -26,9 +26,9 @@ struct BoundarySurface {
 BoundarySurface collect_boundary(const HybridMesh& mesh, const FaceSlots& slots) {
   BoundarySurface surface;
   surface.mesh.points = Column<VertexId, Point>(mesh.points.raw());
-  const SheetSides sheets = find_sheet_sides(mesh);  // the two sides of a baffle enclose no volume
+  const BaffleSides baffles = find_baffle_sides(mesh);  // the two sides of a baffle enclose no volume
   for (std::uint32_t slot = slots.first_boundary(); slot < slots.size(); ++slot) {
-    if (sheets.is_sheet(slot - slots.first_boundary())) continue;
+    if (baffles.is_baffle(slot - slots.first_boundary())) continue;
     const Face face = slots.face(slot);
     for (std::size_t k = 2; k < face.size; ++k) {
       surface.mesh.triangles.push_back({VertexId(face.nodes[0].value()), VertexId(face.nodes[k - 1].value()), VertexId(face.nodes[k].value())});

@@ -1,8 +1,8 @@
 // G2: tests all boundary faces and the envelope for crossings, in one exact triangle-triangle test.
 #include "geom/math/measures.h"
 #include "geom/math/predicates.h"
+#include "geom/mesh/baffles.h"
 #include "geom/mesh/check_parts.h"
-#include "geom/mesh/sheets.h"
 
 namespace sterna::check_parts {
 namespace {
@@ -41,14 +41,14 @@ CrossingCandidates collect_candidates(const HybridMesh& mesh, const FaceSlots& s
 CrossingCandidates crossing_candidates(const HybridMesh& mesh, const FaceSlots& slots, std::span<const std::uint32_t> doubled,
                                        std::span<const std::uint32_t> envelope) {
   // The two sides of a baffle count once, and so do their nodes.
-  const SheetSides sheets = find_sheet_sides(mesh);
+  const BaffleSides baffles = find_baffle_sides(mesh);
   CrossingCandidates candidates;
   for (std::uint32_t slot = slots.first_boundary(); slot < slots.size(); ++slot)
-    if (!std::binary_search(doubled.begin(), doubled.end(), slot) && !sheets.is_second(slot - slots.first_boundary())) add_face(mesh, slots, slot, candidates);
+    if (!std::binary_search(doubled.begin(), doubled.end(), slot) && !baffles.is_second(slot - slots.first_boundary())) add_face(mesh, slots, slot, candidates);
   for (const std::uint32_t slot : envelope) add_face(mesh, slots, slot, candidates);
-  if (sheets.empty()) return candidates;
+  if (baffles.empty()) return candidates;
   for (auto& triangle : candidates.triangles)
-    for (std::uint32_t& node : triangle) node = sheets.twin[node];
+    for (std::uint32_t& node : triangle) node = baffles.twin[node];
   return candidates;
 }
 
@@ -69,10 +69,10 @@ void check_crossings(const HybridMesh& mesh, const FaceSlots& slots, const FaceM
       // The smaller triangle's centre is nearer to the crossing.
       const auto ca = corners_of(a), cb = corners_of(b);
       const auto& c = triangle_area(ca[0], ca[1], ca[2]) <= triangle_area(cb[0], cb[1], cb[2]) ? ca : cb;
-      const Point place = (c[0] + c[1] + c[2]) / 3.0;
+      const Point location = (c[0] + c[1] + c[2]) / 3.0;
       std::string what = name_of(slot_a) + " crosses " + name_of(slot_b);
-      if (!slots.is_boundary(slot_a) && !slots.is_boundary(slot_b)) what += near_patch(mesh, place);
-      return std::pair(place, std::move(what));
+      if (!slots.is_boundary(slot_a) && !slots.is_boundary(slot_b)) what += near_patch(mesh, location);
+      return std::pair(location, std::move(what));
     });
   }
 }

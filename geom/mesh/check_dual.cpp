@@ -51,11 +51,11 @@ DualScan check_dual(const HybridMesh& mesh, const CellNumbers& cells, const Dual
   }
   const GateResult closure = scan.closure.result([&](std::uint64_t node) { return describe_node(mesh, node); });
   std::int64_t n_open = closure.n_beyond_hard;
-  for (const GatePlace& place : closure.places) {
+  for (const GateLocation& location : closure.locations) {
     if (n_open == 0) break;
     --n_open;
     findings.add(Violation::open_dual_cell, [&] {
-      return std::pair(place.position, "the control volume of " + place.what + " is open by " + std::to_string(place.value) + " of its surface");
+      return std::pair(location.position, "the control volume of " + location.what + " is open by " + std::to_string(location.value) + " of its surface");
     });
   }
   findings.add_more(Violation::open_dual_cell, n_open);

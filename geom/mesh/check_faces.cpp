@@ -234,7 +234,7 @@ void for_each_node(HybridMesh& mesh, const F& f) {
 
 }  // namespace
 
-Point OpenFaces::first_place(const HybridMesh& mesh) const {
+Point OpenFaces::first_location(const HybridMesh& mesh) const {
   Vec3 sum;
   const auto nodes = triangles.empty() ? std::span<const NodeId>(quads.front().nodes) : std::span<const NodeId>(triangles.front().nodes);
   for (const NodeId node : nodes) sum += mesh.points[node];

@@ -27,15 +27,15 @@ struct InterfaceScan {
 
 /// Marks wall nodes at which multi-normal fans of opened ridges may begin: nodes that only have boundary triangles. (Where layers end on another wall, their
 /// sides are quadrilaterals of that wall.) Empty without explicit prisms.
-std::vector<std::uint8_t> possible_fan_feet(const HybridMesh& mesh) {
-  std::vector<std::uint8_t> is_foot(mesh.prisms.empty() ? 0 : mesh.points.size(), 0);
-  if (is_foot.empty()) return is_foot;
+std::vector<std::uint8_t> possible_multi_normal_bases(const HybridMesh& mesh) {
+  std::vector<std::uint8_t> is_base(mesh.prisms.empty() ? 0 : mesh.points.size(), 0);
+  if (is_base.empty()) return is_base;
   for (const BoundaryTriangle& triangle : mesh.boundary_triangles)
     if (mesh.patches[triangle.patch].kind == PatchKind::wall)
-      for (const NodeId node : triangle.nodes) is_foot[node.index()] = 1;
+      for (const NodeId node : triangle.nodes) is_base[node.index()] = 1;
   for (const BoundaryQuad& quad : mesh.boundary_quads)
-    for (const NodeId node : quad.nodes) is_foot[node.index()] = 0;
-  return is_foot;
+    for (const NodeId node : quad.nodes) is_base[node.index()] = 0;
+  return is_base;
 }
 
 /// Returns the mean edge of a triangle, m.
@@ -60,8 +60,8 @@ std::optional<double> mean_last_height(const HybridMesh& mesh, const FaceSlots& 
 
 void judge_interface(const HybridMesh& mesh, const CellNumbers& cells, const FaceSlots& slots, const FaceMatch& match, std::span<const double> gaps,
                      const GateTable& limits, LazyGivenLayer& given, const RunContext& context, CheckReport& report) {
-  const std::vector<std::uint8_t> fan_feet = possible_fan_feet(mesh);
-  const auto is_foot = [&](NodeId node) { return fan_feet[node.index()] != 0; };
+  const std::vector<std::uint8_t> possible_bases = possible_multi_normal_bases(mesh);
+  const auto is_base = [&](NodeId node) { return possible_bases[node.index()] != 0; };
   const InterfaceScan scan = parallel_reduce(
       context, match.interface.size(), InterfaceScan(limits),
       [&](std::size_t begin, std::size_t end) {
@@ -75,7 +75,7 @@ void judge_interface(const HybridMesh& mesh, const CellNumbers& cells, const Fac
             if (const std::optional<double> height = mean_last_height(mesh, slots, slot)) part.add_height(*height, edge_of(mesh, face), slot);
             continue;
           }
-          if (slots.prism_cap(slot) && std::any_of(face.nodes.begin(), face.nodes.begin() + 3, is_foot))
+          if (slots.prism_cap(slot) && std::any_of(face.nodes.begin(), face.nodes.begin() + 3, is_base))
             continue;  // the cell is in a multi-normal fan, beside
                        // its first cells
           WedgePoints p;

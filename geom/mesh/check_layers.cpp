@@ -53,10 +53,10 @@ struct LineItems {
 
   std::pair<Point, std::string> operator()(std::uint64_t id) const {
     const auto k = static_cast<std::uint32_t>(id);
-    const NodeId foot = lines.node(k, 0);
-    std::string what = (lines.are_columns() ? "line " + std::to_string(k) : "node " + std::to_string(foot.value()) + " of the wall");
+    const NodeId base_node = lines.node(k, 0);
+    std::string what = (lines.are_columns() ? "line " + std::to_string(k) : "node " + std::to_string(base_node.value()) + " of the wall");
     if (!fans.around(k).empty() && lines.patch(fans.around(k).front()).is_valid()) what += ", patch " + patch_name(mesh, lines.patch(fans.around(k).front()));
-    return {mesh.points[foot], what};
+    return {mesh.points[base_node], what};
   }
   void gather(std::uint64_t id, GateExtent& extent) const {
     const auto k = static_cast<std::uint32_t>(id);
@@ -70,13 +70,13 @@ struct LineItems {
 class LineScanner {
  public:
   /// `line_heights` has one entry per line, which is set if the mesh's request is usable.
-  LineScanner(const HybridMesh& mesh, const LayerLines& lines, const Fans& fans, const FacetsOfExplicitPrisms& beside, const MirrorFeet& feet,
+  LineScanner(const HybridMesh& mesh, const LayerLines& lines, const Fans& fans, const FacetsOfExplicitPrisms& beside, const MirrorNormals& mirror_normals,
               const GateTable& limits, bool is_request_usable, std::vector<LineHeight>& line_heights)
       : mesh_(mesh),
         lines_(lines),
         fans_(fans),
         beside_(beside),
-        feet_(feet),
+        mirror_normals_(mirror_normals),
         line_heights_(line_heights),
         is_request_usable_(is_request_usable),
         scan_(limits) {}
@@ -103,17 +103,17 @@ class LineScanner {
     normals_.clear();
     area_ = 0.0;
     vertex_normal_ = {};
-    const Point& foot = point(line, 0);
+    const Point& base_point = point(line, 0);
     double n_level = 0.0;
     for (const std::uint32_t t : fans_.around(line)) {
       const auto& lines = lines_.triangles()[t];
       const std::size_t corner = lines[0] == line ? 0 : lines[1] == line ? 1 : 2;
       const std::uint32_t next = lines[(corner + 1) % 3];
       const Point &a = point(next, 0), &b = point(lines[(corner + 2) % 3], 0);
-      const Vec3 normal = area_vector(foot, a, b);
+      const Vec3 normal = area_vector(base_point, a, b);
       area_ += norm(normal) / 3.0;
       normals_.push_back(normalized(normal));
-      vertex_normal_ += corner_angle(foot, a, b) * normals_.back();
+      vertex_normal_ += corner_angle(base_point, a, b) * normals_.back();
       // Each inner edge is the next edge of two lines and is evaluated at the lower one. An edge of the open boundary is evaluated at its only triangle.
       const int step = std::abs(n - lines_.n_layers(next));
       if (step == 0) {
@@ -126,7 +126,7 @@ class LineScanner {
       normals_.push_back(facet.normal);
       vertex_normal_ += facet.angle * facet.normal;
     }
-    vertex_normal_ = feet_.mirrored(lines_.node(line, 0), vertex_normal_);
+    vertex_normal_ = mirror_normals_.mirrored(lines_.node(line, 0), vertex_normal_);
     if (n_level > 0.0) scan_.step.add(0.0, line, n_level);
   }
 
@@ -162,14 +162,14 @@ class LineScanner {
     own.is_full = n > 0 && own.height >= k_full_height_share * mesh_.request.target_height[line] * (1.0 - k_height_slack);
     if (own.is_full || normals_.empty()) return;
     std::vector<Vec3> normals = normals_;
-    feet_.add_images(lines_.node(line, 0), normals);
+    mirror_normals_.add_images(lines_.node(line, 0), normals);
     own.visibility = std::cos(smallest_spherical_cap(normals).angle);
   }
 
   void add_first_height(std::uint32_t line) {
     if (line_heights_[line].is_compressed) return;
-    const double asked = mesh_.request.first_height_of(line);
-    const double excess = dot(point(line, 1) - point(line, 0), vertex_normal_) / asked - 1.0;
+    const double requested = mesh_.request.first_height_of(line);
+    const double excess = dot(point(line, 1) - point(line, 0), vertex_normal_) / requested - 1.0;
     scan_.first_height.add(std::abs(excess), line | (excess < 0.0 ? GateScan::k_too_small : 0));
   }
 
@@ -177,7 +177,7 @@ class LineScanner {
   const LayerLines& lines_;
   const Fans& fans_;
   const FacetsOfExplicitPrisms& beside_;
-  const MirrorFeet& feet_;
+  const MirrorNormals& mirror_normals_;
   std::vector<LineHeight>& line_heights_;
   bool is_request_usable_;
   LayerScan scan_;
@@ -202,19 +202,19 @@ std::vector<FacingTriangle> facing_triangles(const HybridMesh& mesh, const Layer
   std::vector<FacingTriangle> facing;
   std::vector<std::uint8_t> has_layers(mesh.patches.size(), 0);
   for (std::size_t t = 0; t < lines.triangles().size(); ++t) {
-    const auto& feet = lines.triangles()[t];
-    FacingTriangle triangle{.feet = feet, .edge = edges[t]};
+    const auto& base_lines = lines.triangles()[t];
+    FacingTriangle triangle{.base_lines = base_lines, .edge = edges[t]};
     for (std::size_t k = 0; k < 3; ++k) {
-      triangle.corners[k] = mesh.points[lines.node(feet[k], 0)];
-      triangle.asked = std::max(triangle.asked, mesh.request.target_height[feet[k]]);
+      triangle.corners[k] = mesh.points[lines.node(base_lines[k], 0)];
+      triangle.requested = std::max(triangle.requested, mesh.request.target_height[base_lines[k]]);
     }
     facing.push_back(triangle);
     if (lines.patch(t).index() < has_layers.size()) has_layers[lines.patch(t).index()] = 1;
   }
   const auto add = [&](PatchId patch, NodeId a, NodeId b, NodeId c) {
     if (patch.index() < has_layers.size() && has_layers[patch.index()] != 0) return;
-    constexpr std::uint32_t k_none = FacingTriangle::k_no_foot;
-    facing.push_back({.corners = {mesh.points[a], mesh.points[b], mesh.points[c]}, .feet = {k_none, k_none, k_none}});
+    constexpr std::uint32_t k_none = FacingTriangle::k_no_line;
+    facing.push_back({.corners = {mesh.points[a], mesh.points[b], mesh.points[c]}, .base_lines = {k_none, k_none, k_none}});
   };
   for (const BoundaryTriangle& t : mesh.boundary_triangles) add(t.patch, t.nodes[0], t.nodes[1], t.nodes[2]);
   for (const BoundaryQuad& q : mesh.boundary_quads) {
@@ -252,8 +252,8 @@ PermittedHeights permitted_heights(const HybridMesh& mesh, const LayerLines& lin
 /// Areas of one patch by state of the layer.
 struct PatchAreas {
   double full = 0.0, reduced = 0.0, compressed = 0.0, collapsed = 0.0, attainable = 0.0, attained = 0.0;
-  double asked = 0.0, covered = 0.0;  ///< m^2; `asked`: area with a requested boundary layer; `covered`: area where the line covers the thickness of that
-                                      ///< layer, or as much of it as the geometry permits
+  double requested = 0.0, covered = 0.0;  ///< m^2; `requested`: area with a requested boundary layer; `covered`: area where the line covers the thickness of
+                                          ///< that layer, or as much of it as the geometry permits
   std::map<std::string, double> lost;
   double total() const { return full + reduced + compressed + collapsed; }
   void add(const PatchAreas& more) {
@@ -263,7 +263,7 @@ struct PatchAreas {
     collapsed += more.collapsed;
     attainable += more.attainable;
     attained += more.attained;
-    asked += more.asked;
+    requested += more.requested;
     covered += more.covered;
     for (const auto& [reason, area] : more.lost) lost[reason] += area;
   }
@@ -288,8 +288,8 @@ std::map<std::uint32_t, PatchAreas> measure_coverage(const HybridMesh& mesh, con
         Areas areas;
         for (std::size_t t = begin; t < end; ++t) {
           const auto& corner = lines.triangles()[t];
-          const auto foot = [&](std::size_t k) { return mesh.points[lines.node(corner[k], 0)]; };
-          const double third = triangle_area(foot(0), foot(1), foot(2)) / 3.0;
+          const auto base_point = [&](std::size_t k) { return mesh.points[lines.node(corner[k], 0)]; };
+          const double third = triangle_area(base_point(0), base_point(1), base_point(2)) / 3.0;
           PatchAreas& patch = areas[lines.patch(t).value()];
           for (const std::uint32_t line : corner) {
             const LineHeight& own = heights[line];
@@ -297,7 +297,7 @@ std::map<std::uint32_t, PatchAreas> measure_coverage(const HybridMesh& mesh, con
             if (permitted[line] >= k_full_height_share * request.target_height[line]) patch.attainable += third;
             if (own.is_full || own.height >= k_full_height_share * permitted[line]) patch.attained += third;
             if (!request.line_boundary_layer.empty() && request.line_boundary_layer[line] > 0.0) {
-              patch.asked += third;
+              patch.requested += third;
               if (covers_boundary_layer(own.height, request.line_boundary_layer[line], request.target_height[line], permitted[line], possible.gaps[line]))
                 patch.covered += third;
             }
@@ -330,11 +330,11 @@ PatchCoverage share_out(const HybridMesh& mesh, std::uint32_t patch, const Patch
 
 void judge_coverage(const HybridMesh& mesh, const LayerLines& lines, const std::vector<LineHeight>& heights, const PermittedHeights& permitted,
                     const GateTable& limits, const RunContext& context, CheckReport& report) {
-  double attained = 0.0, collapsed = 0.0, total = 0.0, asked = 0.0, covered = 0.0;
+  double attained = 0.0, collapsed = 0.0, total = 0.0, requested = 0.0, covered = 0.0;
   for (const auto& [patch, areas] : measure_coverage(mesh, lines, heights, permitted, context)) {
     report.coverage.push_back(share_out(mesh, patch, areas));
     attained += areas.attained;
-    asked += areas.asked;
+    requested += areas.requested;
     covered += areas.covered;
     collapsed += areas.collapsed;
     total += areas.total();
@@ -343,13 +343,13 @@ void judge_coverage(const HybridMesh& mesh, const LayerLines& lines, const std::
     GateScan scan(info_of(measure), limits[measure]);
     if (whole > 0.0) scan.add(part / whole, 0, whole);
     GateResult result = scan.result([](std::uint64_t) { return std::pair(Point{}, std::string()); });
-    result.places.clear();  // the measure applies to the whole wall; the locations are in the patch table and gate G13
+    result.locations.clear();  // the measure applies to the whole wall; the locations are in the patch table and gate G13
     result.n_too_small = result.n_too_large = 0;
     result.share_beyond = 0.0;
     report.gates[static_cast<std::size_t>(measure)] = std::move(result);
   };
-  put(Measure::boundary_layer, covered, asked);
-  if (asked == 0.0) report.gates[static_cast<std::size_t>(Measure::boundary_layer)].reason = k_no_boundary_layer;
+  put(Measure::boundary_layer, covered, requested);
+  if (requested == 0.0) report.gates[static_cast<std::size_t>(Measure::boundary_layer)].reason = k_no_boundary_layer;
   put(Measure::coverage, attained, total);
   put(Measure::collapsed, collapsed, total);
 }
@@ -380,13 +380,13 @@ std::vector<double> judge_layers(const HybridMesh& mesh, const FaceSlots& slots,
   }
   const Fans fans(lines);
   const FacetsOfExplicitPrisms beside(mesh, lines);
-  const MirrorFeet feet(mesh);
+  const MirrorNormals mirror_normals(mesh);
   const bool is_usable = lines.are_columns() && is_request_usable(mesh);
   std::vector<LineHeight> heights(lines.n_lines());
   const LayerScan scan = parallel_reduce(
       context, lines.n_lines(), LayerScan(limits),
       [&](std::size_t begin, std::size_t end) {
-        LineScanner scanner(mesh, lines, fans, beside, feet, limits, is_usable, heights);
+        LineScanner scanner(mesh, lines, fans, beside, mirror_normals, limits, is_usable, heights);
         for (std::size_t k = begin; k < end; ++k) scanner.add(static_cast<std::uint32_t>(k));
         return scanner.take();
       },

@@ -34,12 +34,13 @@ void check_periodic(const HybridMesh& mesh, CheckReport& report, Findings& findi
     } catch (const Error& error) {
       if (error.code() != ErrorCode::bad_argument) throw;
       const ErrorInfo& info = error.info();
-      for (const ErrorPlace& place : info.places)
+      for (const ErrorLocation& location : info.locations)
         findings.add(Violation::periodic_mismatch, [&] {
-          return std::pair(place.position, "periodic sides " + patch_name(mesh, sides.first) + " and " + patch_name(mesh, sides.second) + ": " + place.what);
+          return std::pair(location.position,
+                           "periodic sides " + patch_name(mesh, sides.first) + " and " + patch_name(mesh, sides.second) + ": " + location.what);
         });
-      if (info.places.empty()) findings.add(Violation::periodic_mismatch, [&] { return std::pair(Point{}, info.problem); });
-      findings.add_more(Violation::periodic_mismatch, std::max<std::int64_t>(info.n_places - static_cast<std::int64_t>(info.places.size()), 0));
+      if (info.locations.empty()) findings.add(Violation::periodic_mismatch, [&] { return std::pair(Point{}, info.problem); });
+      findings.add_more(Violation::periodic_mismatch, std::max<std::int64_t>(info.n_locations - static_cast<std::int64_t>(info.locations.size()), 0));
     }
   }
 }

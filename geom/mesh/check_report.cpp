@@ -68,7 +68,7 @@ std::string rounded_count(std::int64_t n) {
 }
 
 /// Returns "1 place", "3 places".
-std::string places_text(std::int64_t n) { return std::to_string(n) + (n == 1 ? " place" : " places"); }
+std::string locations_text(std::int64_t n) { return std::to_string(n) + (n == 1 ? " place" : " places"); }
 
 /// Returns "; 12 prisms beyond the hard limit, 0.0004 % of the volume, at 3 places, 9 too large, 3 too small; 830 beyond the target".
 std::string counts_text(const GateResult& gate) {
@@ -81,7 +81,7 @@ std::string counts_text(const GateResult& gate) {
   if (n == 1) items.remove_suffix(1);  // "1 prism"
   std::string text = "; " + std::to_string(n) + " " + std::string(items) + " beyond " + (is_hard ? "the hard limit" : soft_limit);
   if (gate.share_beyond > 0.0) text += print_text(", %.2g %% of the ", 100.0 * gate.share_beyond) + (info.counted == "area" ? "area" : "volume");
-  if (gate.n_places) text += ", at " + places_text(*gate.n_places);
+  if (gate.n_locations) text += ", at " + locations_text(*gate.n_locations);
   if (gate.n_too_large > 0) text += gate.n_too_small > 0 ? ", " + std::to_string(gate.n_too_large) + " too large" : ", too large";
   if (gate.n_too_small > 0) text += gate.n_too_large > 0 ? ", " + std::to_string(gate.n_too_small) + " too small" : ", too small";
   if (is_hard && gate.n_beyond_target > gate.n_beyond_hard) text += "; " + std::to_string(gate.n_beyond_target) + " beyond " + soft_limit;
@@ -101,12 +101,12 @@ std::string gate_text(const GateResult& gate) {
   if (gate.n_forced > 0)
     text += "; " + std::to_string(gate.n_forced) + " of " + std::to_string(gate.n_beyond_hard) + " beyond the hard limit are forced by the input surface";
   text += "\n";
-  for (const GatePlace& place : gate.forced)
-    text += "         forced: " + shown_text(info, place.value) + " at " + format_point(place.position) + ": " + place.what + ": " + place.forcing.why + "; " +
-            place.forcing.remedy + "\n";
+  for (const GateLocation& location : gate.forced)
+    text += "         forced: " + shown_text(info, location.value) + " at " + format_point(location.position) + ": " + location.what + ": " +
+            location.forcing.why + "; " + location.forcing.remedy + "\n";
   if (gate.state == GateState::pass) return text;
-  for (const GatePlace& place : gate.places)
-    text += "         " + shown_text(info, place.value) + " at " + format_point(place.position) + ": " + place.what + "\n";
+  for (const GateLocation& location : gate.locations)
+    text += "         " + shown_text(info, location.value) + " at " + format_point(location.position) + ": " + location.what + "\n";
   return text;
 }
 
@@ -167,20 +167,20 @@ Json to_json(const GateResult& gate) {
   json["beyond_target"] = gate.n_beyond_target;
   json["too_small"] = gate.n_too_small;
   json["too_large"] = gate.n_too_large;
-  json["separate_places"] = gate.n_places ? Json(*gate.n_places) : Json(nullptr);
+  json["separate_places"] = gate.n_locations ? Json(*gate.n_locations) : Json(nullptr);
   json["share_beyond"] = gate.share_beyond;
   json["share_of"] = info.counted == "area" ? "area" : "volume";
   json["histogram"] = histogram_json(gate, info);
   json["places"] = Json::array();
-  for (const GatePlace& place : gate.places)
-    json["places"].push_back({{"value", number(in_report_unit(info, place.value))}, {"position", to_array(place.position)}, {"what", place.what}});
+  for (const GateLocation& location : gate.locations)
+    json["places"].push_back({{"value", number(in_report_unit(info, location.value))}, {"position", to_array(location.position)}, {"what", location.what}});
   json["forced_places"] = Json::array();
-  for (const GatePlace& place : gate.forced)
-    json["forced_places"].push_back({{"value", number(in_report_unit(info, place.value))},
-                                     {"position", to_array(place.position)},
-                                     {"what", place.what},
-                                     {"why", place.forcing.why},
-                                     {"remedy", place.forcing.remedy}});
+  for (const GateLocation& location : gate.forced)
+    json["forced_places"].push_back({{"value", number(in_report_unit(info, location.value))},
+                                     {"position", to_array(location.position)},
+                                     {"what", location.what},
+                                     {"why", location.forcing.why},
+                                     {"remedy", location.forcing.remedy}});
   return json;
 }
 
@@ -288,8 +288,8 @@ GateState CheckReport::quality_state(Consumer consumer) const {
   return worst;
 }
 
-void CheckReport::restrict_to(Consumers asked) {
-  consumers = asked;
+void CheckReport::restrict_to(Consumers requested) {
+  consumers = requested;
   for (GateResult& gate : gates) {
     if (gate.state == GateState::not_checked) continue;
     if (!is_shown(gate)) {
@@ -299,7 +299,8 @@ void CheckReport::restrict_to(Consumers asked) {
     }
     gate.state = GateState::pass;
     for (const Consumer consumer : k_consumers)
-      if (const GateState state = state_for(gate, consumer); asked.has(consumer) && state != GateState::not_checked) gate.state = std::max(gate.state, state);
+      if (const GateState state = state_for(gate, consumer); requested.has(consumer) && state != GateState::not_checked)
+        gate.state = std::max(gate.state, state);
   }
 }
 
@@ -314,10 +315,11 @@ std::string to_text(const GateResult& gate) { return gate_text(gate); }
 std::string verdict_of(const CheckReport& report, Consumer consumer) {
   const GateState state = report.quality_state(consumer);
   std::string text(to_string(state));
-  const auto known = std::find_if(report.verdict_places.begin(), report.verdict_places.end(), [&](const ConsumerPlaces& p) { return p.consumer == consumer; });
-  if ((state == GateState::warn || state == GateState::fail) && known != report.verdict_places.end() && known->n_places && *known->n_places > 0) {
+  const auto known =
+      std::find_if(report.verdict_locations.begin(), report.verdict_locations.end(), [&](const ConsumerLocations& p) { return p.consumer == consumer; });
+  if ((state == GateState::warn || state == GateState::fail) && known != report.verdict_locations.end() && known->n_locations && *known->n_locations > 0) {
     const bool is_of_cells = consumer == Consumer::cell_centred;
-    text += " at " + places_text(*known->n_places);
+    text += " at " + locations_text(*known->n_locations);
     if (known->n_beyond > 0)
       text += " (" + rounded_count(known->n_beyond) + " of " + rounded_count(is_of_cells ? report.cells.total() : report.n_nodes) +
               (is_of_cells ? " cells)" : " nodes)");
@@ -384,13 +386,13 @@ std::string to_json(const CheckReport& report) {
   json["verdict"] = report.is_valid() ? "VALID" : "INVALID";
   json["verdict_line"] = verdict_line(report);
   json["verdicts"] = Json::array();
-  for (const ConsumerPlaces& places : report.verdict_places) {
-    if (!report.consumers.has(places.consumer)) continue;
-    const bool is_of_cells = places.consumer == Consumer::cell_centred;
-    json["verdicts"].push_back({{"consumer", to_string(places.consumer)},
-                                {"state", state_name(report.quality_state(places.consumer))},
-                                {"separate_places", places.n_places ? Json(*places.n_places) : Json(nullptr)},
-                                {"beyond", places.n_places ? Json(places.n_beyond) : Json(nullptr)},
+  for (const ConsumerLocations& locations : report.verdict_locations) {
+    if (!report.consumers.has(locations.consumer)) continue;
+    const bool is_of_cells = locations.consumer == Consumer::cell_centred;
+    json["verdicts"].push_back({{"consumer", to_string(locations.consumer)},
+                                {"state", state_name(report.quality_state(locations.consumer))},
+                                {"separate_places", locations.n_locations ? Json(*locations.n_locations) : Json(nullptr)},
+                                {"beyond", locations.n_locations ? Json(locations.n_beyond) : Json(nullptr)},
                                 {"total", is_of_cells ? report.cells.total() : report.n_nodes},
                                 {"items", is_of_cells ? "cells" : "nodes"}});
   }

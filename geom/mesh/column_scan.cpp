@@ -105,35 +105,35 @@ std::span<const CellShape> ColumnShapes::cells() {
   for (std::size_t j = 0; j < n_; j += k_width) {
     const CellShapes shapes = cell_shapes(prism_faces(lines_, j));
     for (std::size_t k = 0; k < k_width && j + k < n_; ++k)
-      cells_[j + k] = {lane(shapes.place.centre, k), shapes.place.volume[k], shapes.aspect_ratio[k], shapes.openness[k], shapes.determinant[k]};
+      cells_[j + k] = {lane(shapes.location.centre, k), shapes.location.volume[k], shapes.aspect_ratio[k], shapes.openness[k], shapes.determinant[k]};
   }
   return cells_;
 }
 
-void ColumnShapes::places(Place* places) const {
+void ColumnShapes::locations(CellCentre* locations) const {
   for (std::size_t j = 0; j < n_; j += k_width) {
-    const Places four = cell_places(prism_faces(lines_, j));
-    for (std::size_t k = 0; k < k_width && j + k < n_; ++k) places[j + k] = lane(four, k);
+    const CellCentres four = cell_locations(prism_faces(lines_, j));
+    for (std::size_t k = 0; k < k_width && j + k < n_; ++k) locations[j + k] = lane(four, k);
   }
 }
 
-std::span<const InnerFace> ColumnShapes::tops(const Place* places) {
+std::span<const InnerFace> ColumnShapes::tops(const CellCentre* locations) {
   const std::size_t n = n_ - 1;
   tops_.resize(n);
   for (std::size_t j = 0; j < n; j += k_width) {
     const std::array<Vec3x4, 3> corners = {lines_[0].at(j + 1), lines_[1].at(j + 1), lines_[2].at(j + 1)};
     const std::size_t n_used = std::min(k_width, n - j);
-    store_faces(inner_faces(corners, face_shapes(corners), load(places + j), load(places + j + 1), n_used), n_used, tops_.data() + j);
+    store_faces(inner_faces(corners, face_shapes(corners), load(locations + j), load(locations + j + 1), n_used), n_used, tops_.data() + j);
   }
   return tops_;
 }
 
-std::span<const InnerFace> ColumnShapes::side(std::size_t corner, const Place* places, const Place* places_beyond) {
+std::span<const InnerFace> ColumnShapes::side(std::size_t corner, const CellCentre* locations, const CellCentre* locations_beyond) {
   sides_.resize(n_);
   for (std::size_t j = 0; j < n_; j += k_width) {
     const Side corners = side_at(corner, j);
     const std::size_t n_used = std::min(k_width, n_ - j);
-    store_faces(inner_faces(corners, face_shapes(corners), load(places + j), load(places_beyond + j), n_used), n_used, sides_.data() + j);
+    store_faces(inner_faces(corners, face_shapes(corners), load(locations + j), load(locations_beyond + j), n_used), n_used, sides_.data() + j);
   }
   return sides_;
 }

@@ -23,12 +23,12 @@ class ColumnShapes {
   void read(std::size_t column);
   /// Returns the shapes of the column's prisms from the wall up. Determinants are those without any face on the boundary.
   std::span<const CellShape> cells();
-  /// Writes the centres and volumes of the column's prisms to `places`, one per layer.
-  void places(Place* places) const;
+  /// Writes the centres and volumes of the column's prisms to `locations`, one per layer.
+  void locations(CellCentre* locations) const;
   /// Returns the faces between the column's prisms, lowest first. \param places the places of the column's prisms; three more may be read
-  std::span<const InnerFace> tops(const Place* places);
+  std::span<const InnerFace> tops(const CellCentre* locations);
   /// Returns the faces between the column's prisms and those of the column across a side.
-  std::span<const InnerFace> side(std::size_t corner, const Place* places, const Place* places_beyond);
+  std::span<const InnerFace> side(std::size_t corner, const CellCentre* locations, const CellCentre* locations_beyond);
 
  private:
   using Side = std::array<lanes::Vec3x4, 4>;

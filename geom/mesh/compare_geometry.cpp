@@ -36,7 +36,7 @@ struct Parts {
 };
 
 /// Returns one common number for all vertices at a location.
-Column<VertexId, std::uint32_t> places_of(const TriMesh& mesh) {
+Column<VertexId, std::uint32_t> locations_of(const TriMesh& mesh) {
   std::vector<VertexId> order;
   order.reserve(mesh.n_vertices());
   for (const VertexId v : mesh.points.ids()) order.push_back(v);
@@ -48,13 +48,13 @@ Column<VertexId, std::uint32_t> places_of(const TriMesh& mesh) {
     const auto ka = key(a), kb = key(b);
     return ka != kb ? ka < kb : a < b;
   });
-  Column<VertexId, std::uint32_t> place(mesh.n_vertices(), 0);
+  Column<VertexId, std::uint32_t> location(mesh.n_vertices(), 0);
   std::uint32_t n = 0;
   for (std::size_t i = 0; i < order.size(); ++i) {
     if (i > 0 && key(order[i]) != key(order[i - 1])) ++n;
-    place[order[i]] = n;
+    location[order[i]] = n;
   }
-  return place;
+  return location;
 }
 
 /// Neighbour across each side, if the edge has exactly two facets.
@@ -100,7 +100,7 @@ Neighbours neighbours_of(const TriMesh& mesh) {
   Column<VertexId, std::uint32_t> own(mesh.n_vertices(), 0);
   for (const VertexId v : mesh.points.ids()) own[v] = v.value();
   match_sides(mesh, own, result);
-  if (std::ranges::find(result.twin, k_none) != result.twin.end()) match_sides(mesh, places_of(mesh), result);
+  if (std::ranges::find(result.twin, k_none) != result.twin.end()) match_sides(mesh, locations_of(mesh), result);
   return result;
 }
 
@@ -247,7 +247,7 @@ class PartNames {
   }
   PartChange describe(const Part& part) const {
     PartChange change{mesh_.patches[part.patch].name, part.box.center(), part.area, part.is_closed ? std::abs(part.volume) : 0.0};
-    if (n_.at(part.patch) > 1) change.name += " about " + format_point(change.place);
+    if (n_.at(part.patch) > 1) change.name += " about " + format_point(change.location);
     return change;
   }
 

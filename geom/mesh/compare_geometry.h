@@ -31,7 +31,7 @@ struct PatchChange {
 
 struct PartChange {
   std::string name;     ///< name of the patch with most of the part's area; with the location if several parts have the same name
-  Point place;          ///< m, centre of its box
+  Point location;       ///< m, centre of its box
   double area = 0.0;    ///< m^2
   double volume = 0.0;  ///< m^3, magnitude; 0: the part is open
 };

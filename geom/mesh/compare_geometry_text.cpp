@@ -63,7 +63,7 @@ Json box_json(const Box& box) {
 }
 
 Json part_json(const PartChange& part) {
-  return {{"name", part.name}, {"at", {part.place.x, part.place.y, part.place.z}}, {"area", part.area}, {"volume", part.volume}};
+  return {{"name", part.name}, {"at", {part.location.x, part.location.y, part.location.z}}, {"area", part.area}, {"volume", part.volume}};
 }
 
 template <class List, class Make>

@@ -33,7 +33,7 @@ bool is_positive_in_double(CellKind kind, std::span<const Vec3> points);
 /// Cells that are positive in double precision at the points of the mesh but not at the rounded points of a file.
 struct LostCells {
   std::int64_t n = 0;
-  std::vector<ErrorPlace> places;  ///< the first ten in mesh order: name, patch nearby, value
+  std::vector<ErrorLocation> locations;  ///< the first ten in mesh order: name, patch nearby, value
 };
 
 /// Finds the cells that become flat or folded by rounding of the coordinates.

@@ -20,12 +20,12 @@ namespace sterna::dual_parts {
 inline constexpr double k_certain = 1e-13;
 /// Factor of the absolute part of that margin, which is the factor times the distance of the cell from the origin times the square of the size. Solvers round
 /// midpoints and centroids as coordinates, with an error of one to eight units of the distance each.
-inline constexpr double k_place_rounding = 32 * 0x1p-53;
+inline constexpr double k_location_rounding = 32 * 0x1p-53;
 /// Returns the bound of six times the volume above which a sub-tet is certain. \p reach: distance of the corner from the origin; \p size2: square of the
 /// size.
 template <class T>
 T certain_sub_volume(const T& reach, const T& size, const T& size2) {
-  return size2 * (k_certain * size + k_place_rounding * (reach + size));
+  return size2 * (k_certain * size + k_location_rounding * (reach + size));
 }
 /// Rounding error of the dual faces around a node, relative to its number of edges times the square of the longest edge. Each face has six cross products of
 /// such edges, with differences before them.

@@ -120,24 +120,24 @@ TriangleLeaves make_leaves(std::span<const Vec3> points, std::span<const CornerI
   const Vec3 middle = all.center();
   const double cells = (1u << k_curve_bits) - 1, side = all.longest_side();
   const double scale = side > 0.0 ? cells / side : 0.0;
-  struct Place {
+  struct Location {
     std::uint64_t key;
     std::uint32_t triangle;
   };
-  std::vector<Place> places(triangles.size());
+  std::vector<Location> locations(triangles.size());
   parallel_for(context, triangles.size(), [&](std::size_t i) {
     const CornerIndices& t = triangles[i];
     const Vec3 centre = (points[t[0]] - all.min) / 3.0 + (points[t[1]] - all.min) / 3.0 + (points[t[2]] - all.min) / 3.0;
     std::uint64_t key = 0;
     for (std::size_t axis = 0; axis < 3; ++axis) key |= spread(static_cast<std::uint64_t>(std::clamp(centre[axis] * scale, 0.0, cells))) << axis;
-    places[i] = {key, static_cast<std::uint32_t>(i)};
+    locations[i] = {key, static_cast<std::uint32_t>(i)};
   });
-  parallel_sort(context, places, [](const Place& a, const Place& b) { return a.key != b.key ? a.key < b.key : a.triangle < b.triangle; });
-  tree.order.resize(places.size());
-  for (std::size_t i = 0; i < places.size(); ++i) tree.order[i] = places[i].triangle;
+  parallel_sort(context, locations, [](const Location& a, const Location& b) { return a.key != b.key ? a.key < b.key : a.triangle < b.triangle; });
+  tree.order.resize(locations.size());
+  for (std::size_t i = 0; i < locations.size(); ++i) tree.order[i] = locations[i].triangle;
 
-  tree.levels.emplace_back((places.size() + k_leaf_width - 1) / k_leaf_width);
-  parallel_for(context, places.size(), [&](std::size_t i) {
+  tree.levels.emplace_back((locations.size() + k_leaf_width - 1) / k_leaf_width);
+  parallel_for(context, locations.size(), [&](std::size_t i) {
     Box box;
     for (const std::uint32_t v : triangles[tree.order[i]]) box.add(points[v]);
     FloatBox near;

@@ -45,24 +45,25 @@ std::optional<GivenBoundary::OnLine> GivenBoundary::on_line(std::uint32_t node) 
   return OnLine{line, node - first};
 }
 
-double GivenBoundary::off_foot(const OnLine& place) const {
-  const NodeId foot = mesh_.layers.node(place.line, 0);
-  return distance(mesh_.points[foot], mesh_.points[NodeId(foot.value() + place.layer)]);
+double GivenBoundary::off_base(const OnLine& location) const {
+  const NodeId base_node = mesh_.layers.node(location.line, 0);
+  return distance(mesh_.points[base_node], mesh_.points[NodeId(base_node.value() + location.layer)]);
 }
 
 std::optional<GivenBoundary::Ring> GivenBoundary::ring_of(NodeId node) const {
-  const OnLine place = on_line(node.value()).value_or(OnLine{0, 0});
-  const std::uint32_t foot = place.layer == 0 ? node.value() : mesh_.layers.first_node[place.line];
-  const double own_shift = place.layer == 0 ? 0.0 : off_foot(place);
+  const OnLine location = on_line(node.value()).value_or(OnLine{0, 0});
+  const std::uint32_t base_node = location.layer == 0 ? node.value() : mesh_.layers.first_node[location.line];
+  const double own_shift = location.layer == 0 ? 0.0 : off_base(location);
   Ring ring{0.0, k_infinity};
-  for (auto edge = std::lower_bound(wall_edges_.begin(), wall_edges_.end(), Edge{foot, 0}); edge != wall_edges_.end() && edge->first == foot; ++edge) {
+  for (auto edge = std::lower_bound(wall_edges_.begin(), wall_edges_.end(), Edge{base_node, 0}); edge != wall_edges_.end() && edge->first == base_node;
+       ++edge) {
     double shift = 0.0;
-    if (place.layer > 0) {
+    if (location.layer > 0) {
       const std::optional<OnLine> other = on_line(edge->second);
-      if (!other || other->layer != 0 || mesh_.layers.n_steps(other->line) != mesh_.layers.n_steps(place.line)) return std::nullopt;
-      shift = own_shift + off_foot({other->line, place.layer});
+      if (!other || other->layer != 0 || mesh_.layers.n_steps(other->line) != mesh_.layers.n_steps(location.line)) return std::nullopt;
+      shift = own_shift + off_base({other->line, location.layer});
     }
-    const double length = distance(mesh_.points[NodeId(foot)], mesh_.points[NodeId(edge->second)]);
+    const double length = distance(mesh_.points[NodeId(base_node)], mesh_.points[NodeId(edge->second)]);
     ring.longest = std::max(ring.longest, length - shift);
     ring.shortest = std::min(ring.shortest, length + shift);
   }

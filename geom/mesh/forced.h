@@ -34,7 +34,7 @@ class GivenBoundary {
     std::uint32_t line = 0, layer = 0;
   };
   std::optional<OnLine> on_line(std::uint32_t node) const;
-  double off_foot(const OnLine& place) const;
+  double off_base(const OnLine& location) const;
   std::optional<Ring> ring_of(NodeId node) const;
   double fluid_angle(std::uint32_t a, std::uint32_t b) const;
 

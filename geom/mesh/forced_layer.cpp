@@ -30,7 +30,7 @@ constexpr int k_multiplier_sweeps = 100;
 constexpr double k_bound_slack = 1e-9;
 
 constexpr const char* k_remesh_there = "remesh the wall there (surface_mesh), or split its sliver triangles";
-constexpr const char* k_ask_more = "more layers, a larger growth or first height, or a finer wall there";
+constexpr const char* k_request_more = "more layers, a larger growth or first height, or a finer wall there";
 constexpr const char* k_fewer_layers = "truncate the layer there, or request fewer layers";
 
 /// Returns the least share of corner `own` in the centre of a prism with these lengths at its corners, where heights are at least `stand` times the lengths.
@@ -61,14 +61,14 @@ struct GivenLayer::Pair {
 };
 
 struct GivenLayer::Room {
-  double last = 0.0, total = 0.0;                    ///< m, largest length of the last cell and of the line
-  double last_as_asked = 0.0, total_as_asked = 0.0;  ///< m, the same lengths if no gap limited the line
-  Vec3 best;                                         ///< unit, the direction of lines with the best view of the facets
+  double last = 0.0, total = 0.0;                            ///< m, largest length of the last cell and of the line
+  double last_as_requested = 0.0, total_as_requested = 0.0;  ///< m, the same lengths if no gap limited the line
+  Vec3 best;                                                 ///< unit, the direction of lines with the best view of the facets
   /// Returns the largest fraction of a line's length along a direction while the line is within k_lean_room of the best direction.
   double most_along(const Vec3& direction) const { return std::max(0.0, std::cos(std::max(0.0, angle_between(best, direction) - k_lean_room))); }
 };
 
-GivenLayer::GivenLayer(Borrowed<const HybridMesh> mesh) : mesh_(mesh), rings_(mesh->layers), feet_(mesh) {
+GivenLayer::GivenLayer(Borrowed<const HybridMesh> mesh) : mesh_(mesh), rings_(mesh->layers), mirror_normals_(mesh) {
   for (std::size_t k = 0; k < mesh->layers.n_lines(); ++k) line_at_.push_back({mesh->layers.first_node[k], static_cast<std::uint32_t>(k)});
   std::sort(line_at_.begin(), line_at_.end());
 }
@@ -88,9 +88,9 @@ std::vector<Vec3> GivenLayer::normals_around(std::uint32_t line) const {
   std::vector<Vec3> normals;
   for (const std::uint32_t column : rings_.columns(line)) {
     const auto& base = mesh_.layers.base[column];
-    normals.push_back(normalized(area_vector(foot(base[0]), foot(base[1]), foot(base[2]))));
+    normals.push_back(normalized(area_vector(base_point(base[0]), base_point(base[1]), base_point(base[2]))));
   }
-  feet_.add_images(mesh_.layers.node(line, 0), normals);
+  mirror_normals_.add_images(mesh_.layers.node(line, 0), normals);
   return normals;
 }
 
@@ -120,7 +120,7 @@ std::array<std::uint32_t, 4> GivenLayer::lines_of(const ColumnSide& side) const 
 std::optional<GivenLayer::Pair> GivenLayer::pair_of(const ColumnSide& side) const {
   if (!is_between_prisms(side)) return std::nullopt;
   const auto [a, b, c, e] = lines_of(side);
-  const Point &pa = foot(a), &pb = foot(b), &pc = foot(c), &pe = foot(e);
+  const Point &pa = base_point(a), &pb = base_point(b), &pc = base_point(c), &pe = base_point(e);
   Pair pair;
   pair.edge = distance(pa, pb);
   double best = 0.0, least_length = k_infinity;
@@ -220,8 +220,8 @@ std::optional<Forcing> GivenLayer::orthogonality(NodeId node, double limit) cons
       tallest = std::max({tallest, step(k, layer), layer > 0 ? step(k, layer - 1) : 0.0});
     }
     moved += own;  // displacement of a side of the triangle from the line
-    const double longest = longest_side(foot(base[0]), foot(base[1]), foot(base[2]));
-    const Vec3 area = area_vector(foot(base[0]), foot(base[1]), foot(base[2]));
+    const double longest = longest_side(base_point(base[0]), base_point(base[1]), base_point(base[2]));
+    const Vec3 area = area_vector(base_point(base[0]), base_point(base[1]), base_point(base[2]));
     const double off = moved * (longest + 0.5 * moved);
     normals.push_back(normalized(area));
     sum += area / 3.0;
@@ -262,15 +262,15 @@ std::optional<GivenLayer::Room> GivenLayer::room_of(std::uint32_t line, double g
   const double lean = std::cos(std::min(cap.angle + k_lean_room, 0.5 * std::numbers::pi));
   if (!(lean > k_least_lean_cosine)) return std::nullopt;
   // The request has at least as many layers as the line. In a gap the tallest last cell follows from the actual number of layers.
-  const int n = mesh_.layers.n_steps(line), n_asked = request.line_layers.empty() ? n : request.line_layers[line];
+  const int n = mesh_.layers.n_steps(line), n_requested = request.line_layers.empty() ? n : request.line_layers[line];
   const double growth = k_growth_room * (request.line_max_growth.empty() ? request.max_growth : request.line_max_growth[line]);
   if (!(growth > 1.0) || n < 1) return std::nullopt;
-  const double power = std::pow(growth, n), power_asked = std::pow(growth, n_asked);
+  const double power = std::pow(growth, n), power_requested = std::pow(growth, n_requested);
   const double first = k_first_height_room * request.first_height_of(line) / lean;
   Room room;
   room.best = cap.axis;
-  room.last_as_asked = room.last = first * power_asked / growth;
-  room.total_as_asked = room.total = first * (power_asked - 1.0) / (growth - 1.0);
+  room.last_as_requested = room.last = first * power_requested / growth;
+  room.total_as_requested = room.total = first * (power_requested - 1.0) / (growth - 1.0);
   if (gap < k_infinity) {
     room.total = std::min(room.total, std::max(gap / lean, length(line, n)));
     room.last = std::min(room.last, room.total * (1.0 - 1.0 / growth) / (1.0 - 1.0 / power));
@@ -293,22 +293,23 @@ std::optional<Forcing> GivenLayer::interface_height(std::size_t column, std::spa
   Room most;  // `total`: largest mean difference between the edges of the wall and the shorter edges of the layer's top
   for (std::size_t k = 0; k < 3; ++k) {
     const std::size_t j = (k + 1) % 3;
-    const Vec3 along = foot(base[j]) - foot(base[k]);
+    const Vec3 along = base_point(base[j]) - base_point(base[k]);
     const double from = rooms[k].most_along(along), to = rooms[j].most_along(-along);
     most.total += (from * rooms[k].total + to * rooms[j].total) / 3.0;
-    most.total_as_asked += (from * rooms[k].total_as_asked + to * rooms[j].total_as_asked) / 3.0;
+    most.total_as_requested += (from * rooms[k].total_as_requested + to * rooms[j].total_as_requested) / 3.0;
     most.last += rooms[k].last / 3.0;
-    most.last_as_asked += rooms[k].last_as_asked / 3.0;
+    most.last_as_requested += rooms[k].last_as_requested / 3.0;
     wall += norm(along) / 3.0;
     edge += distance(mesh_.points[layers.top(base[k])], mesh_.points[layers.top(base[j])]) / 3.0;
     height += step(base[k], n - 1) / 3.0;
   }
   // A mesh that violates the assumptions of the bounds proves nothing.
   if (height > most.last * (1.0 + k_bound_slack) || edge < (wall - most.total) * (1.0 - k_bound_slack)) return std::nullopt;
-  const double as_asked = k_regular_height * (wall - most.total_as_asked) / most.last_as_asked;
+  const double as_requested = k_regular_height * (wall - most.total_as_requested) / most.last_as_requested;
   const double in_gap = k_regular_height * (wall - most.total) / most.last;
   const std::string edges = "the wall edges are " + in_metres(wall, k_forced_digits) + " long here, ";
-  if (as_asked > limit) return Forcing{edges + "and the requested layer has no last cell above " + in_metres(most.last_as_asked, k_forced_digits), k_ask_more};
+  if (as_requested > limit)
+    return Forcing{edges + "and the requested layer has no last cell above " + in_metres(most.last_as_requested, k_forced_digits), k_request_more};
   if (in_gap > limit) return Forcing{edges + "and the gap allows no last cell above " + in_metres(most.last, k_forced_digits), k_fewer_layers};
   return std::nullopt;
 }

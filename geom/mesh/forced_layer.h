@@ -68,7 +68,7 @@ class GivenLayer {
   std::array<std::uint32_t, 4> lines_of(const ColumnSide& side) const;
   std::optional<Pair> pair_of(const ColumnSide& side) const;
   std::optional<Room> room_of(std::uint32_t line, double gap) const;
-  const Point& foot(std::uint32_t line) const { return mesh_.points[mesh_.layers.node(line, 0)]; }
+  const Point& base_point(std::uint32_t line) const { return mesh_.points[mesh_.layers.node(line, 0)]; }
   double step(std::uint32_t line, int layer) const;
   double length(std::uint32_t line, int layer) const;
   /// Returns the normals of the facets at the line's base, including their images behind symmetry planes.
@@ -81,7 +81,7 @@ class GivenLayer {
 
   const HybridMesh& mesh_;
   dual_parts::LineRings rings_;
-  MirrorFeet feet_;
+  MirrorNormals mirror_normals_;
   std::vector<std::pair<std::uint32_t, std::uint32_t>> line_at_;  ///< first node and line, ascending
 };
 

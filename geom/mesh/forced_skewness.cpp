@@ -130,9 +130,9 @@ double GivenLayer::Wedge::least_skewness(int box_a, int box_b) const {
 std::optional<Forcing> GivenLayer::skewness(const ColumnSide& side, double limit) const {
   if (!is_between_prisms(side)) return std::nullopt;
   const std::array<std::uint32_t, 4> lines = lines_of(side);
-  const Point &a = foot(lines[0]), &b = foot(lines[1]);
-  const Vec3 n0 = area_vector(a, b, foot(lines[2])), n1 = area_vector(b, a, foot(lines[3]));
-  if (!(dot(n0, foot(lines[3]) - a) < 0.0)) return std::nullopt;  // the fluid is not on the outer side
+  const Point &a = base_point(lines[0]), &b = base_point(lines[1]);
+  const Vec3 n0 = area_vector(a, b, base_point(lines[2])), n1 = area_vector(b, a, base_point(lines[3]));
+  if (!(dot(n0, base_point(lines[3]) - a) < 0.0)) return std::nullopt;  // the fluid is not on the outer side
   Wedge wedge;
   wedge.edge = distance(a, b);
   wedge.half = 0.5 * (std::numbers::pi - angle_between(n0, n1));
@@ -144,9 +144,9 @@ std::optional<Forcing> GivenLayer::skewness(const ColumnSide& side, double limit
   double longest = 0.0, leaning = 0.0;
   for (std::size_t i = 0; i < 2; ++i) {
     const std::uint32_t opposite = lines[2 + i];
-    longest = std::max(longest, longest_side(a, b, foot(opposite)));
+    longest = std::max(longest, longest_side(a, b, base_point(opposite)));
     wedge.reach[i] = 2.0 * norm(i == 0 ? n0 : n1) / wedge.edge;
-    wedge.along[i] = dot(foot(opposite) - a, along);
+    wedge.along[i] = dot(base_point(opposite) - a, along);
     const double lean = smallest_spherical_cap(normals_around(opposite)).angle + k_lean_room;
     const double angle = angle_between(smallest_spherical_cap(normals_around(lines[i])).axis, along), off = std::abs(angle - 0.5 * std::numbers::pi);
     if (!(lean < 0.5 * std::numbers::pi && off + k_lean_room < 0.5 * std::numbers::pi)) return std::nullopt;
@@ -175,10 +175,10 @@ std::optional<Forcing> GivenLayer::skewness(const ColumnSide& side, double limit
 std::optional<Forcing> GivenLayer::skewness_of_edge(const ColumnSide& side, double limit, double value) const {
   if (!is_between_prisms(side)) return std::nullopt;
   const std::array<std::uint32_t, 4> lines = lines_of(side);
-  const Point &a = foot(lines[0]), &b = foot(lines[1]);
-  const std::array<Vec3, 2> normals = {normalized(area_vector(a, b, foot(lines[2]))), normalized(area_vector(b, a, foot(lines[3])))};
+  const Point &a = base_point(lines[0]), &b = base_point(lines[1]);
+  const std::array<Vec3, 2> normals = {normalized(area_vector(a, b, base_point(lines[2]))), normalized(area_vector(b, a, base_point(lines[3])))};
   const double angle = std::numbers::pi - angle_between(normals[0], normals[1]);
-  if (!(dot(normals[0], foot(lines[3]) - a) < 0.0 && angle < k_sharp)) return std::nullopt;
+  if (!(dot(normals[0], base_point(lines[3]) - a) < 0.0 && angle < k_sharp)) return std::nullopt;
   const auto best = [&](std::uint32_t line) { return smallest_spherical_cap(normals_around(line)).axis; };
   const std::array<Vec3, 2> along_lines = {best(lines[0]), best(lines[1])};
   std::array<Point, 2> centres;
@@ -186,7 +186,7 @@ std::optional<Forcing> GivenLayer::skewness_of_edge(const ColumnSide& side, doub
     const auto height = [&](std::uint32_t line, const Vec3& direction) { return step(line, side.layer) * std::max(0.0, dot(direction, normals[i])); };
     const double first = height(lines[0], along_lines[0]), second = height(lines[1], along_lines[1]), far = height(lines[2 + i], best(lines[2 + i]));
     if (!(first + second + far > 0.0)) return std::nullopt;
-    centres[i] = share_of(first, second + far) * a + share_of(second, far + first) * b + share_of(far, first + second) * foot(lines[2 + i]);
+    centres[i] = share_of(first, second + far) * a + share_of(second, far + first) * b + share_of(far, first + second) * base_point(lines[2 + i]);
   }
   const double at_a = step(lines[0], side.layer), at_b = step(lines[1], side.layer);
   const Point middle = a + (at_a + 2.0 * at_b) / (3.0 * (at_a + at_b)) * (b - a);

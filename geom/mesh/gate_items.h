@@ -51,6 +51,6 @@ struct SlotItems {
 
 /// Counts the locations of all gates, and the share of the volume for items that are not areas; empties the extents.
 /// \pre indices are in range
-void count_places(const HybridMesh& mesh, const CellNumbers& cells, const RunContext& context, CheckReport& report);
+void count_locations(const HybridMesh& mesh, const CellNumbers& cells, const RunContext& context, CheckReport& report);
 
 }  // namespace sterna::check_parts

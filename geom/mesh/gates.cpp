@@ -87,10 +87,10 @@ void GateScan::add_soft(double badness, std::uint64_t id, double weight) {
 
 void GateScan::remember(const Item& item) {
   const auto is_worse = [](const Item& a, const Item& b) { return is_before(a, b); };
-  if (worst_.size() == k_most_places && !is_worse(item, worst_.back())) return;
+  if (worst_.size() == k_most_locations && !is_worse(item, worst_.back())) return;
   worst_.insert(std::upper_bound(worst_.begin(), worst_.end(), item, is_worse), item);
-  if (worst_.size() > k_most_places) worst_.pop_back();
-  if (worst_.size() == k_most_places) entry_ = worst_.back().badness;
+  if (worst_.size() > k_most_locations) worst_.pop_back();
+  if (worst_.size() == k_most_locations) entry_ = worst_.back().badness;
 }
 
 void GateScan::merge(const GateScan& other) {

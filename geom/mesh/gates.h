@@ -154,14 +154,14 @@ struct Forcing {
 };
 
 /// One of the worst locations of a measure.
-struct GatePlace {
+struct GateLocation {
   double value = 0.0;
   Point position;
   std::string what;  ///< name of the entity
   Forcing forcing;   ///< empty: a mesher defect
 };
 
-/// Nodes and cells of the items of a measure that are beyond a limit; check_places.cpp derives locations and shares from them.
+/// Nodes and cells of the items of a measure that are beyond a limit; check_locations.cpp derives locations and shares from them.
 struct GateExtent {
   std::vector<std::uint32_t> nodes;        ///< item after item
   std::vector<std::uint32_t> first = {0};  ///< start of each item in `nodes`, and the end
@@ -186,12 +186,12 @@ struct GateResult {
   std::int64_t n_beyond_target = 0;  ///< number of items beyond limits.target (limits.usual if there is no target), including those beyond the hard limit
   // The following members describe the items that decide: those beyond the hard limit that are not forced, or if there are none, those beyond the target.
   std::int64_t n_too_small = 0, n_too_large = 0;  ///< deciding items with a value below or above the ideal
-  std::optional<std::int64_t> n_places;           ///< clusters of deciding items whose cells touch; none if items have no location, or are too many to be kept
+  std::optional<std::int64_t> n_locations;        ///< clusters of deciding items whose cells touch; none if items have no location, or are too many to be kept
   double share_beyond = 0.0;                      ///< share of the deciding items: of the wall's area if areas are counted, else of the fluid's volume
   GateExtent extent;                              ///< nodes and cells of the deciding items; empty after check()
-  std::vector<GatePlace> places;                  ///< the worst ten items that miss a limit and are not forced (any items for a measure without limits), worst
+  std::vector<GateLocation> locations;            ///< the worst ten items that miss a limit and are not forced (any items for a measure without limits), worst
                                                   ///< first
-  std::vector<GatePlace> forced;                  ///< the worst ten forced items, worst first
+  std::vector<GateLocation> forced;               ///< the worst ten forced items, worst first
   std::vector<double> histogram;                  ///< number of items, or m^2, in each class of MeasureInfo::classes; empty if the measure has no histogram
 };
 
@@ -203,7 +203,7 @@ GateState state_for(const GateResult& gate, Consumer consumer);
 /// were distributed to the parts, except for the rounding of non-integer weights.
 class GateScan {
  public:
-  static constexpr std::size_t k_most_places = 10;
+  static constexpr std::size_t k_most_locations = 10;
   struct Item {
     double badness;  ///< larger is worse
     std::uint64_t id;
@@ -240,9 +240,9 @@ class GateScan {
   /// Returns the result. `prove(id, value) -> optional<Forcing>` is called for every item beyond the hard limit.
   template <class Describe, class Prove>
   GateResult result(const Describe& describe, const Prove& prove) const {
-    std::vector<GatePlace> places, forced;
-    const auto list = [&](std::vector<GatePlace>& to, const Item& item, Forcing forcing) {
-      if (to.size() == k_most_places) return;
+    std::vector<GateLocation> locations, forced;
+    const auto list = [&](std::vector<GateLocation>& to, const Item& item, Forcing forcing) {
+      if (to.size() == k_most_locations) return;
       auto [position, what] = describe(item.id & ~k_too_small);
       to.push_back({value_of(item), position, std::move(what), std::move(forcing)});
     };
@@ -259,12 +259,12 @@ class GateScan {
         own_weight += beyond.weight;
       }
       const bool is_forced = forcing.has_value();
-      list(is_forced ? forced : places, beyond.item, std::move(forcing).value_or(Forcing{}));
+      list(is_forced ? forced : locations, beyond.item, std::move(forcing).value_or(Forcing{}));
     }
     for (const Item& item : worst_)
-      if (item.badness <= hard_ && is_notable(item)) list(places, item, {});
+      if (item.badness <= hard_ && is_notable(item)) list(locations, item, {});
     GateResult result = judge(n_forced, forced_weight, own_weight);
-    result.places = std::move(places);
+    result.locations = std::move(locations);
     result.forced = std::move(forced);
     const std::vector<std::uint64_t> deciding = decide(std::move(own), own_weight, result);
     if constexpr (requires { describe.gather(std::uint64_t{}, result.extent); }) {

@@ -2,7 +2,7 @@
 // 1. place_vertices: distances to the plane; distances within the tolerance are set to zero and their vertices moved into the plane.
 // 2. snap_near_vertices: vertices with a cut close by on one of their edges move there, along the sharpest such edge, so that features stay in place.
 // 3. cut: triangles by the signs of their corners; a crossed edge gets one vertex.
-// 4. require_rim: checks the conditions on the open boundary that half.h states.
+// 4. require_border: checks the conditions on the open boundary that half.h states.
 #include "geom/mesh/half.h"
 
 #include <algorithm>
@@ -83,9 +83,10 @@ Cutting place_vertices(const TriMesh& surface, const HalvingPlane& plane) {
     if (is_in_plane(d) || !is_kept_in_part(d) || (d[0] != 0.0 && d[1] != 0.0 && d[2] != 0.0)) continue;
     const auto [a, b, c] = corners(surface, t);
     const auto [p, q, r] = corners(cutting.mesh, t);
-    if (dot(area_vector(a, b, c), area_vector(p, q, r)) <= 0.0 && norm(area_vector(a, b, c)) > 0.0) info.add_place(a, "triangle " + std::to_string(t.value()));
+    if (dot(area_vector(a, b, c), area_vector(p, q, r)) <= 0.0 && norm(area_vector(a, b, c)) > 0.0)
+      info.add_location(a, "triangle " + std::to_string(t.value()));
   }
-  if (info.n_places > 0) throw Error(std::move(info));
+  if (info.n_locations > 0) throw Error(std::move(info));
   return cutting;
 }
 
@@ -113,10 +114,10 @@ Move propose(const Cutting& cutting, const Topology& topology, VertexId v, const
   const double d = cutting.distance[v];
   double shortest = 1e300;
   for (const VertexId u : topology.neighbours(v)) shortest = std::min(shortest, distance(cutting.mesh.points[v], cutting.mesh.points[u]));
-  bool is_on_rim = false;
-  for (const HalfedgeId h : topology.outgoing(v)) is_on_rim |= topology.is_boundary(h) || topology.is_boundary(previous(h));
+  bool is_on_border = false;
+  for (const HalfedgeId h : topology.outgoing(v)) is_on_border |= topology.is_boundary(h) || topology.is_boundary(previous(h));
   const auto consider = [&](HalfedgeId h, VertexId u) {
-    if (cutting.distance[u] * d >= 0.0 || (is_on_rim && !topology.is_boundary(h))) return;
+    if (cutting.distance[u] * d >= 0.0 || (is_on_border && !topology.is_boundary(h))) return;
     const Point to = crossing(cutting.mesh.points[v], cutting.mesh.points[u], d, cutting.distance[u], plane);
     const double share = distance(to, cutting.mesh.points[v]) / shortest;
     const double fold = fold_cosine(cutting.mesh, topology, h);
@@ -266,7 +267,7 @@ void require_reach(const TriMesh& surface, const TriMesh& half, const HalvingPla
                                                     : "the surface does not reach the plane: its nearest vertex is " + std::to_string(from_plane(nearest)) +
                                                           " m away, the tolerance is " + std::to_string(plane.tolerance) + " m",
                             "set axis, at and keep to the plane in which the model ends");
-  info.add_place(surface.points[nearest], "nearest vertex");
+  info.add_location(surface.points[nearest], "nearest vertex");
   throw Error(std::move(info));
 }
 
@@ -278,10 +279,10 @@ bool is_in_some_plane(const TriMesh& half, const Box& box, const Topology& topol
   return false;
 }
 
-void require_rim(const TriMesh& half, const HalvingPlane& plane, const RunContext& context) {
+void require_border(const TriMesh& half, const HalvingPlane& plane, const RunContext& context) {
   const Topology topology(half, context);
   const Box box = bounding_box(half);
-  std::vector<std::uint8_t> n_rim_edges(half.n_vertices(), 0);
+  std::vector<std::uint8_t> n_border_edges(half.n_vertices(), 0);
   ErrorInfo open = error_at(plane, ErrorCode::open_surface, "",
                             "close the holes beside the plane; the open boundary of a half model must be within the tolerance of the plane");
   ErrorInfo touching = error_at(plane, ErrorCode::non_manifold_surface, "", "move the plane a little, or lower tolerance and snap");
@@ -292,29 +293,29 @@ void require_rim(const TriMesh& half, const HalvingPlane& plane, const RunContex
     const VertexId from = topology.from(h), to = topology.to(h);
     const bool is_in_this = half.points[from][plane.axis] == plane.at && half.points[to][plane.axis] == plane.at;
     if (!is_in_this && !is_in_some_plane(half, box, topology, h))
-      open.add_place(0.5 * (half.points[from] + half.points[to]),
-                     "an edge with one triangle, " + std::to_string(std::abs(half.points[from][plane.axis] - plane.at)) + " m from the plane");
-    else if (++n_rim_edges[from.index()] == 2) {
+      open.add_location(0.5 * (half.points[from] + half.points[to]),
+                        "an edge with one triangle, " + std::to_string(std::abs(half.points[from][plane.axis] - plane.at)) + " m from the plane");
+    else if (++n_border_edges[from.index()] == 2) {
       ++n_pinched;
-      touching.add_place(half.points[from], "the open boundary touches itself");
+      touching.add_location(half.points[from], "the open boundary touches itself");
     }
   }
-  if (open.n_places > 0) {
-    open.problem = "the open boundary is not closed in the plane: " + std::to_string(open.n_places) +
+  if (open.n_locations > 0) {
+    open.problem = "the open boundary is not closed in the plane: " + std::to_string(open.n_locations) +
                    " edges with one triangle lie neither in this plane nor in another plane x, y or z = constant where the surface ends";
     throw Error(std::move(open));
   }
   for (const VertexId v : half.points.ids())
-    if (half.points[v][plane.axis] == plane.at && n_rim_edges[v.index()] == 0)
-      touching.add_place(half.points[v], "the surface touches the plane without crossing it");
-  if (touching.n_places == 0) return;
+    if (half.points[v][plane.axis] == plane.at && n_border_edges[v.index()] == 0)
+      touching.add_location(half.points[v], "the surface touches the plane without crossing it");
+  if (touching.n_locations == 0) return;
   touching.problem = std::to_string(n_pinched) + " vertices where the open boundary touches itself, " +
-                     std::to_string(static_cast<std::size_t>(touching.n_places) - n_pinched) + " where the surface touches the plane without crossing it";
+                     std::to_string(static_cast<std::size_t>(touching.n_locations) - n_pinched) + " where the surface touches the plane without crossing it";
   throw Error(std::move(touching));
 }
 
 /// Warns if the removed part is not the mirror image of the kept part: for example a deflected aileron, or a tail on one side.
-void tell_asymmetry(const TriMesh& surface, const HalvingPlane& plane, const RunContext& context) {
+void report_asymmetry(const TriMesh& surface, const HalvingPlane& plane, const RunContext& context) {
   constexpr double k_share_of_edge = 0.3, k_share_of_length = 3e-4;
   const MirrorGap gap = mirror_gap(surface, plane.axis, plane.at, k_share_of_edge, context);
   if (gap.distance <= k_share_of_length * bounding_box(surface).longest_side()) return;
@@ -329,10 +330,10 @@ TriMesh half_of(const TriMesh& surface, const HalfOptions& options, const RunCon
   Cutting cutting = place_vertices(surface, plane);
   const SnapReport snapped = options.snap > 0.0 ? snap_near_vertices(cutting, Topology(surface, context), plane, options.snap) : SnapReport{};
   const Cutter cutter(cutting, plane);
-  if (is_image_expected && std::ranges::any_of(cutting.distance, [](double d) { return d < 0.0; })) tell_asymmetry(surface, plane, context);
+  if (is_image_expected && std::ranges::any_of(cutting.distance, [](double d) { return d < 0.0; })) report_asymmetry(surface, plane, context);
   TriMesh half = cutter.take();
   require_reach(surface, half, plane);
-  require_rim(half, plane, context);
+  require_border(half, plane, context);
   context.debug("half at " + plane.text() + ": " + std::to_string(half.n_triangles()) + " of " + std::to_string(surface.n_triangles()) + " triangles, " +
                 std::to_string(cutter.n_cut()) + " were cut; " + std::to_string(snapped.n_moved) + " vertices moved into the plane by up to " +
                 std::to_string(snapped.farthest) + " m");

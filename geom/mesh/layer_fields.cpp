@@ -24,7 +24,7 @@ struct LineFigures {
 std::vector<LineFigures> measure_lines(const HybridMesh& mesh, const LayerLines& lines, const RunContext& context) {
   const Fans fans(lines);
   const FacetsOfExplicitPrisms beside(mesh, lines);
-  const MirrorFeet feet(mesh);
+  const MirrorNormals mirror_normals(mesh);
   const bool has_target = lines.are_columns() && is_request_usable(mesh);
   std::vector<LineFigures> all(lines.n_lines());
   parallel_chunks(context, lines.n_lines(), k_field_chunk, [&](std::size_t begin, std::size_t end) {
@@ -46,17 +46,17 @@ std::vector<LineFigures> measure_lines(const HybridMesh& mesh, const LayerLines&
         Vec3 wall_normal{};
         for (const std::uint32_t t : fans.around(line)) {
           const auto& corner = lines.triangles()[t];
-          const auto foot = [&](std::size_t i) { return mesh.points[lines.node(corner[i], 0)]; };
-          normals.push_back(normalized(area_vector(foot(0), foot(1), foot(2))));
+          const auto base_point = [&](std::size_t i) { return mesh.points[lines.node(corner[i], 0)]; };
+          normals.push_back(normalized(area_vector(base_point(0), base_point(1), base_point(2))));
           const std::size_t c = corner[0] == line ? 0 : corner[1] == line ? 1 : 2;
-          wall_normal += corner_angle(foot(c), foot((c + 1) % 3), foot((c + 2) % 3)) * normals.back();
+          wall_normal += corner_angle(base_point(c), base_point((c + 1) % 3), base_point((c + 2) % 3)) * normals.back();
         }
         if (!normals.empty())
           for (const FacetsOfExplicitPrisms::Facet& facet : beside.around(line)) {
             normals.push_back(facet.normal);
             wall_normal += facet.angle * facet.normal;
           }
-        if (!normals.empty()) normal_height = dot(point(n) - point(0), feet.mirrored(lines.node(line, 0), wall_normal));
+        if (!normals.empty()) normal_height = dot(point(n) - point(0), mirror_normals.mirrored(lines.node(line, 0), wall_normal));
         if (!normals.empty()) figures.angle = k_degrees * stack_angle(mesh, lines, line, normals);
       }
       if (has_target && mesh.request.target_height[k] > 0.0) figures.coverage = std::clamp(normal_height / mesh.request.target_height[k], 0.0, 1.0);
@@ -97,7 +97,7 @@ class TriangleIndex {
   }
   std::optional<std::uint32_t> find(const std::array<std::uint32_t, 3>& nodes) const {
     const auto key = sorted(nodes);
-    const auto found = std::lower_bound(entries_.begin(), entries_.end(), key, [](const Entry& entry, const auto& wanted) { return entry.key < wanted; });
+    const auto found = std::lower_bound(entries_.begin(), entries_.end(), key, [](const Entry& entry, const auto& searched) { return entry.key < searched; });
     return found != entries_.end() && found->key == key ? std::optional(found->triangle) : std::nullopt;
   }
 
@@ -172,33 +172,33 @@ double largest_of(const std::array<double, 3>& values) {
 }
 
 /// Returns the boundary triangle under each column, if any. In a damaged mesh two columns may stand on the same triangle: it is assigned to the first.
-std::vector<std::optional<std::size_t>> feet_of_columns(const HybridMesh& mesh, const LayerLines& lines, const RunContext& context) {
+std::vector<std::optional<std::size_t>> base_triangles_of_columns(const HybridMesh& mesh, const LayerLines& lines, const RunContext& context) {
   const TriangleIndex index(mesh, context);
-  std::vector<std::optional<std::size_t>> feet(lines.triangles().size());
-  parallel_for(context, feet.size(), [&](std::size_t t) {
+  std::vector<std::optional<std::size_t>> base_triangles(lines.triangles().size());
+  parallel_for(context, base_triangles.size(), [&](std::size_t t) {
     const auto& corner = lines.triangles()[t];
-    feet[t] = index.find({lines.node(corner[0], 0).value(), lines.node(corner[1], 0).value(), lines.node(corner[2], 0).value()});
+    base_triangles[t] = index.find({lines.node(corner[0], 0).value(), lines.node(corner[1], 0).value(), lines.node(corner[2], 0).value()});
   });
   std::vector<std::uint8_t> is_taken(mesh.boundary_triangles.size(), 0);
-  for (auto& foot : feet)
-    if (foot && std::exchange(is_taken[*foot], 1) != 0) foot.reset();
-  return feet;
+  for (auto& base_triangle : base_triangles)
+    if (base_triangle && std::exchange(is_taken[*base_triangle], 1) != 0) base_triangle.reset();
+  return base_triangles;
 }
 
 std::vector<std::vector<double>> measure_columns(const HybridMesh& mesh, const LayerLines& lines, const RunContext& context) {
   std::vector<std::vector<double>> fields(k_n_layer_fields, std::vector<double>(mesh.boundary_triangles.size(), k_nan));
   const std::vector<LineFigures> figures = measure_lines(mesh, lines, context);
-  const std::vector<std::optional<std::size_t>> feet = feet_of_columns(mesh, lines, context);
+  const std::vector<std::optional<std::size_t>> base_triangles = base_triangles_of_columns(mesh, lines, context);
   parallel_chunks(context, lines.triangles().size(), k_field_chunk, [&](std::size_t begin, std::size_t end) {
     ColumnMeasurer measurer(mesh, lines);
     for (std::size_t t = begin; t < end; ++t) {
       const auto& corner = lines.triangles()[t];
-      if (!feet[t]) continue;
+      if (!base_triangles[t]) continue;
       const auto of_lines = [&](double LineFigures::*member) {
         return std::array{figures[corner[0]].*member, figures[corner[1]].*member, figures[corner[2]].*member};
       };
       const std::array<int, 3> n = {lines.n_layers(corner[0]), lines.n_layers(corner[1]), lines.n_layers(corner[2])};
-      const auto put = [&](LayerField field, double value) { fields[field][*feet[t]] = value; };
+      const auto put = [&](LayerField field, double value) { fields[field][*base_triangles[t]] = value; };
       put(k_layer_height, mean_of(of_lines(&LineFigures::height)));
       put(k_first_height, mean_of(of_lines(&LineFigures::first)));
       put(k_coverage, mean_of(of_lines(&LineFigures::coverage)));

@@ -108,29 +108,30 @@ void LayerLines::find_stacks(const HybridMesh& mesh, const FaceSlots& slots, con
     return;
   }
   std::vector<std::uint32_t> line_of(mesh.points.size(), k_no_node);
-  std::vector<std::uint32_t> feet;
+  std::vector<std::uint32_t> base_nodes;
   for (const BoundaryTriangle& face : mesh.boundary_triangles) {
     if (has_layers[face.patch.index()] == 0) continue;
     std::array<std::uint32_t, 3> lines;
     for (std::size_t k = 0; k < 3; ++k) {
       std::uint32_t& line = line_of[face.nodes[k].index()];
       if (line == k_no_node) {
-        line = static_cast<std::uint32_t>(feet.size());
-        feet.push_back(face.nodes[k].value());
+        line = static_cast<std::uint32_t>(base_nodes.size());
+        base_nodes.push_back(face.nodes[k].value());
       }
       lines[k] = line;
     }
     own_triangles_.push_back({lines[0], lines[2], lines[1]});  // boundary faces point out of the fluid
     patches_.push_back(face.patch);
   }
-  n_lines_ = feet.size();
+  n_lines_ = base_nodes.size();
   triangles_ = own_triangles_;
   first_.assign(1, 0);
-  for (const std::uint32_t foot : feet) {
+  for (const std::uint32_t base_node : base_nodes) {
     const std::size_t start = nodes_.size();
-    nodes_.push_back(foot);
+    nodes_.push_back(base_node);
     // Stacks between two walls are cut at the second wall; no line is longer than all stacks together.
-    for (std::uint32_t node = above[foot]; node != k_no_node && line_of[node] == k_no_node && nodes_.size() - start <= mesh.prisms.size(); node = above[node])
+    for (std::uint32_t node = above[base_node]; node != k_no_node && line_of[node] == k_no_node && nodes_.size() - start <= mesh.prisms.size();
+         node = above[node])
       nodes_.push_back(node);
     first_.push_back(nodes_.size());
   }

@@ -34,24 +34,24 @@ double distance_along(const Point& p, const Vec3& d, const std::array<Point, 3>&
 
 LayerRoom::LayerRoom(std::vector<FacingTriangle> boundary, const RunContext& context)
     : boundary_(std::move(boundary)), tree_(facing_boxes(boundary_), context) {
-  for (const FacingTriangle& t : boundary_) most_asked_ = std::max(most_asked_, t.asked);
+  for (const FacingTriangle& t : boundary_) most_requested_ = std::max(most_requested_, t.requested);
 }
 
 std::optional<LayerRoom::Hit> LayerRoom::nearest_opposite(const RoomRequest& line) const {
   // A wall farther away than both heights and the reserved part of a gap (at most half of it) leaves room for any requested height.
-  const double reach = (line.target + most_asked_ / k_opposing_cosine) / k_kept_share;
+  const double reach = (line.target + most_requested_ / k_opposing_cosine) / k_kept_share;
   Box box;
-  box.add(line.foot);
-  box.add(line.foot + reach * line.normal);
+  box.add(line.base_point);
+  box.add(line.base_point + reach * line.normal);
   std::optional<Hit> nearest;
   tree_.for_each_overlap(box, [&](std::uint32_t i) {
     const FacingTriangle& t = boundary_[i];
-    if (std::find(t.feet.begin(), t.feet.end(), line.line) != t.feet.end()) return true;
+    if (std::find(t.base_lines.begin(), t.base_lines.end(), line.line) != t.base_lines.end()) return true;
     const Vec3 normal = cross(t.corners[1] - t.corners[0], t.corners[2] - t.corners[0]);
     const double along = dot(normal, line.normal) / norm(normal);
-    const double cosine = t.asked > 0.0 ? -along : std::abs(along);
+    const double cosine = t.requested > 0.0 ? -along : std::abs(along);
     if (!(cosine >= k_opposing_cosine)) return true;
-    const double gap = distance_along(line.foot, line.normal, t.corners, normal);
+    const double gap = distance_along(line.base_point, line.normal, t.corners, normal);
     if (gap > 0.0 && (!nearest || gap < nearest->gap || (gap == nearest->gap && i < nearest->triangle))) nearest = Hit{gap, i, cosine};
     return true;
   });
@@ -63,7 +63,7 @@ double LayerRoom::in_gap(const RoomRequest& line) const {
   if (!hit) return k_infinity;
   const FacingTriangle& opposite = boundary_[hit->triangle];
   const double kept = std::min(k_kept_edges * std::max(line.edge, opposite.edge) / hit->cosine, k_kept_share * hit->gap);
-  const double share = (hit->gap - kept) / (line.target + opposite.asked / hit->cosine);
+  const double share = (hit->gap - kept) / (line.target + opposite.requested / hit->cosine);
   return share < 1.0 ? line.target * share : k_infinity;
 }
 

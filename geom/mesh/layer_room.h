@@ -20,17 +20,17 @@ inline constexpr double k_kept_share = 0.5;
 
 /// A boundary triangle that may be opposite to a growth line.
 struct FacingTriangle {
-  std::array<Point, 3> corners;         ///< right-hand normal into the fluid
-  std::array<std::uint32_t, 3> feet{};  ///< lines on its corners, or k_no_foot
-  double asked = 0.0;  ///< m, largest requested height at the corners of the triangle; 0 if it carries no layer, and then its orientation is ignored
-  double edge = 0.0;   ///< m, mean edge of the envelope above it
-  static constexpr std::uint32_t k_no_foot = 0xffffffffu;
+  std::array<Point, 3> corners;               ///< right-hand normal into the fluid
+  std::array<std::uint32_t, 3> base_lines{};  ///< lines on its corners, or k_no_line
+  double requested = 0.0;  ///< m, largest requested height at the corners of the triangle; 0 if it carries no layer, and then its orientation is ignored
+  double edge = 0.0;       ///< m, mean edge of the envelope above it
+  static constexpr std::uint32_t k_no_line = 0xffffffffu;
 };
 
 /// Properties of a growth line that determine its room.
 struct RoomRequest {
   std::uint32_t line = 0;
-  Point foot;
+  Point base_point;
   Vec3 normal;              ///< unit, wall normal at the base vertex
   double target = 0.0;      ///< m, requested height
   double edge = 0.0;        ///< m, mean edge of the envelope at the line
@@ -61,7 +61,7 @@ class LayerRoom {
   std::optional<Hit> nearest_opposite(const RoomRequest& line) const;
 
   std::vector<FacingTriangle> boundary_;
-  double most_asked_ = 0.0;  ///< m
+  double most_requested_ = 0.0;  ///< m
   BoxTree tree_;
 };
 

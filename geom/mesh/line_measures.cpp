@@ -24,32 +24,35 @@ Fans::Fans(const LayerLines& lines) : first_(lines.n_lines() + 1, 0), triangles_
     for (const std::uint32_t line : lines.triangles()[t]) triangles_[cursor[line]++] = t;
 }
 
-MirrorFeet::MirrorFeet(const HybridMesh& mesh) {
+MirrorNormals::MirrorNormals(const HybridMesh& mesh) {
   for (const BoundaryQuad& quad : mesh.boundary_quads) {
     if (quad.patch.index() >= mesh.patches.size() || mesh.patches[quad.patch].kind != PatchKind::symmetry) continue;
     const auto& p = mesh.points;
     const Vec3 normal = normalized(cross(p[quad.nodes[2]] - p[quad.nodes[0]], p[quad.nodes[3]] - p[quad.nodes[1]]));
-    for (const NodeId node : quad.nodes) feet_.push_back({node, quad.patch, normal});
+    for (const NodeId node : quad.nodes) base_normals_.push_back({node, quad.patch, normal});
   }
-  std::sort(feet_.begin(), feet_.end(), [](const Foot& a, const Foot& b) { return std::pair(a.node, a.patch) < std::pair(b.node, b.patch); });
-  feet_.erase(std::unique(feet_.begin(), feet_.end(), [](const Foot& a, const Foot& b) { return a.node == b.node && a.patch == b.patch; }), feet_.end());
+  std::sort(base_normals_.begin(), base_normals_.end(),
+            [](const BaseNormal& a, const BaseNormal& b) { return std::pair(a.node, a.patch) < std::pair(b.node, b.patch); });
+  base_normals_.erase(
+      std::unique(base_normals_.begin(), base_normals_.end(), [](const BaseNormal& a, const BaseNormal& b) { return a.node == b.node && a.patch == b.patch; }),
+      base_normals_.end());
 }
 
-std::span<const MirrorFeet::Foot> MirrorFeet::of(NodeId node) const {
-  const auto first = std::lower_bound(feet_.begin(), feet_.end(), node, [](const Foot& a, NodeId b) { return a.node < b; });
+std::span<const MirrorNormals::BaseNormal> MirrorNormals::of(NodeId node) const {
+  const auto first = std::lower_bound(base_normals_.begin(), base_normals_.end(), node, [](const BaseNormal& a, NodeId b) { return a.node < b; });
   auto last = first;
-  while (last != feet_.end() && last->node == node) ++last;
+  while (last != base_normals_.end() && last->node == node) ++last;
   return {first, last};
 }
 
-Vec3 MirrorFeet::mirrored(NodeId node, Vec3 normal) const {
-  for (const Foot& foot : of(node)) normal = normal - dot(normal, foot.normal) * foot.normal;
+Vec3 MirrorNormals::mirrored(NodeId node, Vec3 normal) const {
+  for (const BaseNormal& base_normal : of(node)) normal = normal - dot(normal, base_normal.normal) * base_normal.normal;
   return normalized(normal);
 }
 
-void MirrorFeet::add_images(NodeId node, std::vector<Vec3>& normals) const {
-  for (const Foot& foot : of(node))
-    for (std::size_t i = 0, n = normals.size(); i < n; ++i) normals.push_back(normals[i] - 2.0 * dot(normals[i], foot.normal) * foot.normal);
+void MirrorNormals::add_images(NodeId node, std::vector<Vec3>& normals) const {
+  for (const BaseNormal& base_normal : of(node))
+    for (std::size_t i = 0, n = normals.size(); i < n; ++i) normals.push_back(normals[i] - 2.0 * dot(normals[i], base_normal.normal) * base_normal.normal);
 }
 
 FacetsOfExplicitPrisms::FacetsOfExplicitPrisms(const HybridMesh& mesh, const LayerLines& lines) {
@@ -61,10 +64,10 @@ FacetsOfExplicitPrisms::FacetsOfExplicitPrisms(const HybridMesh& mesh, const Lay
   for (const std::array<NodeId, 6>& prism : mesh.prisms)
     for (std::size_t k = 0; k < 6; ++k) {
       const std::size_t base = k < 3 ? 0 : 3;
-      const NodeId foot = prism[k], above = prism[(k + 3) % 6];
-      const std::uint32_t line = line_at[foot.index()];
+      const NodeId base_node = prism[k], above = prism[(k + 3) % 6];
+      const std::uint32_t line = line_at[base_node.index()];
       if (line == k_none || lines.node(line, 1) != above) continue;
-      const Point &p = mesh.points[foot], &a = mesh.points[prism[base + (k + 1) % 3]], &b = mesh.points[prism[base + (k + 2) % 3]];
+      const Point &p = mesh.points[base_node], &a = mesh.points[prism[base + (k + 1) % 3]], &b = mesh.points[prism[base + (k + 2) % 3]];
       const Vec3 normal = normalized(area_vector(p, a, b));
       facets_.push_back({line, dot(normal, mesh.points[above] - p) < 0.0 ? -normal : normal, corner_angle(p, a, b)});
     }

@@ -21,22 +21,22 @@ class Fans {
 
 /// Unit normals of the symmetry patches at the base vertices of lines that stand on them. The body continues behind a symmetry plane as its mirror image, so
 /// normals there are averaged with their images.
-class MirrorFeet {
+class MirrorNormals {
  public:
-  explicit MirrorFeet(const HybridMesh& mesh);
+  explicit MirrorNormals(const HybridMesh& mesh);
   /// Returns the component of a normal at a node that lies in the symmetry planes through the node, normalised.
   Vec3 mirrored(NodeId node, Vec3 normal) const;
   /// Adds the images of the facet normals behind the symmetry planes through the node.
   void add_images(NodeId node, std::vector<Vec3>& normals) const;
 
  private:
-  struct Foot {
+  struct BaseNormal {
     NodeId node;
     PatchId patch;
     Vec3 normal;
   };
-  std::span<const Foot> of(NodeId node) const;
-  std::vector<Foot> feet_;  ///< ascending by node and patch
+  std::span<const BaseNormal> of(NodeId node) const;
+  std::vector<BaseNormal> base_normals_;  ///< ascending by node and patch
 };
 
 /// Facets around base vertices of column lines that belong to explicit prisms, not to columns: facets of wake sheets, and of walls beside lines that were

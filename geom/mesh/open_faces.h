@@ -15,7 +15,7 @@ struct OpenFaces {
   std::vector<BoundaryQuad> quads;
   std::size_t size() const { return triangles.size() + quads.size(); }
   /// Returns the centre of the first face. \pre size() > 0
-  Point first_place(const HybridMesh& mesh) const;
+  Point first_location(const HybridMesh& mesh) const;
 };
 
 /// Finds the open faces, in the order of their cells. If the boundary is complete, this takes one pass over the faces.

@@ -48,9 +48,9 @@ class Matcher {
     error_.hint = "both sides must be flat and have the same triangles, moved by one translation: mesh one side and copy it";
     throw Error(std::move(error_));
   }
-  void note(const Point& place, std::string what) {
-    ++error_.n_places;
-    if (error_.places.size() < k_max_places) error_.places.push_back({place, std::move(what)});
+  void note(const Point& location, std::string what) {
+    ++error_.n_locations;
+    if (error_.locations.size() < k_max_locations) error_.locations.push_back({location, std::move(what)});
   }
   Point middle(const Side& side) const {
     // Coordinates are relative to one node, so that small sides far from the origin keep their digits.
@@ -75,7 +75,7 @@ class Matcher {
         if (off > tolerance_) note(points_[n], "off the plane by " + metres(off));
         worst = std::max(worst, off);
       }
-      if (error_.n_places > 0) fail("patch \"" + side->name + "\" is not flat: " + metres(worst) + ", limit " + metres(tolerance_));
+      if (error_.n_locations > 0) fail("patch \"" + side->name + "\" is not flat: " + metres(worst) + ", limit " + metres(tolerance_));
     }
   }
 
@@ -109,7 +109,7 @@ class Matcher {
     }
     for (const std::uint32_t n : second_.nodes)
       if (!taken.contains(n)) note(points_[n], "this node is not the image of a node");
-    if (error_.n_places > 0) fail(std::to_string(error_.n_places) + " nodes have no partner within " + metres(tolerance_));
+    if (error_.n_locations > 0) fail(std::to_string(error_.n_locations) + " nodes have no partner within " + metres(tolerance_));
   }
 
   void match_faces() {
@@ -124,7 +124,7 @@ class Matcher {
       if (other != others.end()) match_.faces.push_back({face.number, other->second});
       else note((points_[face.nodes[0]] + points_[face.nodes[1]] + points_[face.nodes[2]]) / 3.0, "no face at the image of this face");
     }
-    if (error_.n_places > 0) fail(std::to_string(error_.n_places) + " faces have no partner");
+    if (error_.n_locations > 0) fail(std::to_string(error_.n_locations) + " faces have no partner");
     if (first_.faces.size() != second_.faces.size())
       fail(std::to_string(first_.faces.size()) + " faces on one side, " + std::to_string(second_.faces.size()) + " on the other");
   }

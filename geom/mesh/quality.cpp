@@ -35,7 +35,7 @@ double skew_angle(const WedgePoints& p) {
 void QualityScan::Extreme::lower(double v, const Point& p) {
   if (!(v < value)) return;
   value = v;
-  place = p;
+  location = p;
 }
 
 Point QualityScan::middle(const WedgePoints& p) { return center_of(p); }
@@ -54,9 +54,9 @@ void QualityScan::add_tet(const std::array<Vec3, 4>& p, const std::array<double,
 }
 
 void QualityScan::merge(const QualityScan& later) {
-  wedge_.lower(later.wedge_.value, later.wedge_.place);
-  min_dihedral_.lower(later.min_dihedral_.value, later.min_dihedral_.place);
-  negative_max_dihedral_.lower(later.negative_max_dihedral_.value, later.negative_max_dihedral_.place);
+  wedge_.lower(later.wedge_.value, later.wedge_.location);
+  min_dihedral_.lower(later.min_dihedral_.value, later.min_dihedral_.location);
+  negative_max_dihedral_.lower(later.negative_max_dihedral_.value, later.negative_max_dihedral_.location);
   n_prisms_ += later.n_prisms_;
   n_collapsed_ += later.n_collapsed_;
   n_below_6_ += later.n_below_6_;
@@ -68,13 +68,13 @@ Quality QualityScan::result() const {
   Quality quality;
   if (n_prisms_ > 0) {
     quality.min_wedge_quality = wedge_.value;
-    quality.worst_prism = wedge_.place;
+    quality.worst_prism = wedge_.location;
   }
   if (std::isfinite(min_dihedral_.value)) {
     quality.min_dihedral = min_dihedral_.value;
     quality.max_dihedral = -negative_max_dihedral_.value;
-    quality.worst_tet = min_dihedral_.place;
-    quality.most_obtuse_tet = negative_max_dihedral_.place;
+    quality.worst_tet = min_dihedral_.location;
+    quality.most_obtuse_tet = negative_max_dihedral_.location;
   }
   if (const auto n = static_cast<double>(n_prisms_ + n_collapsed_); n > 0) {
     quality.skew_below_6 = static_cast<double>(n_below_6_) / n;

@@ -34,7 +34,7 @@ class QualityScan {
   void add_skew(double skew);
   struct Extreme {
     double value = std::numeric_limits<double>::infinity();
-    Point place;
+    Point location;
     void lower(double v, const Point& p);
   };
   Extreme wedge_, min_dihedral_, negative_max_dihedral_;

@@ -234,7 +234,7 @@ HybridMesh renumbered(const HybridMesh& mesh, Numbering numbering, const RunCont
   HybridMesh result = has_lines ? mesh : explicit_cells(mesh);
   const LineVertices vertices(result, has_lines ? NodeLines(result, context) : NodeLines());
   const std::vector<std::uint32_t> order = bandwidth_order(line_graph(result, vertices, context));
-  std::vector<std::uint32_t> new_number(result.points.size()), foot(result.points.size()), old_lines;
+  std::vector<std::uint32_t> new_number(result.points.size()), base_node(result.points.size()), old_lines;
   std::uint32_t next = 0;
   for (const std::uint32_t v : order) {
     const std::uint32_t first = next;
@@ -244,14 +244,14 @@ HybridMesh renumbered(const HybridMesh& mesh, Numbering numbering, const RunCont
     } else {
       new_number[vertices.free_nodes[v - vertices.lines.size()]] = next++;
     }
-    std::fill(foot.begin() + first, foot.begin() + next, first);
+    std::fill(base_node.begin() + first, base_node.begin() + next, first);
   }
   Column<NodeId, Point> points(result.points.size());
   for (std::size_t i = 0; i < new_number.size(); ++i) points[NodeId(new_number[i])] = result.points.raw()[i];
   result.points = std::move(points);
   if (result.layers.n_lines() > 0) reorder_layers(result, old_lines, new_number);
   // Prisms are sorted by the lines between which they lie, so that prisms of a stack are consecutive.
-  const auto by_line = [&](std::uint32_t node) { return foot[node]; };
+  const auto by_line = [&](std::uint32_t node) { return base_node[node]; };
   const auto by_node = [](std::uint32_t node) { return node; };
   const auto itself = [](auto& nodes) -> auto& { return nodes; };
   const auto of_face = [](auto& face) -> auto& { return face.nodes; };

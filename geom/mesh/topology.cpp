@@ -49,16 +49,16 @@ std::string describe(const TriMesh& mesh, const BadEdge& edge, PatchId patch) {
   info.code = ErrorCode::non_manifold_surface;
   info.attempted = "connecting " + std::to_string(mesh.n_triangles()) + " triangles";
   info.problem = std::to_string(bad.size()) + (bad.size() == 1 ? " edge does" : " edges do") + " not join one or two triangles of the same orientation";
-  info.n_places = static_cast<std::int64_t>(bad.size());
+  info.n_locations = static_cast<std::int64_t>(bad.size());
   info.hint = "remove duplicate or internal facets and make the orientation consistent";
   for (std::size_t i = 0; i < bad.size() && i < k_max_trouble_edges; ++i) {
     const Point& a = mesh.points[bad[i].from];
     const Point& b = mesh.points[bad[i].to];
-    if (i < k_max_places) {
+    if (i < k_max_locations) {
       PatchId patch;
       for (const HalfedgeId h : topology.outgoing(bad[i].from))
         if (!patch.is_valid() && topology.to(h) == bad[i].to && mesh.triangle_patch.size() == mesh.n_triangles()) patch = mesh.triangle_patch[triangle_of(h)];
-      info.places.push_back({0.5 * (a + b), describe(mesh, bad[i], patch)});
+      info.locations.push_back({0.5 * (a + b), describe(mesh, bad[i], patch)});
     }
     const auto n = static_cast<std::uint32_t>(info.geometry.points.size());
     info.geometry.points.insert(info.geometry.points.end(), {a, b});

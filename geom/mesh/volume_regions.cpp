@@ -8,7 +8,7 @@
 #include "geom/base/number_text.h"
 #include "geom/base/parallel.h"
 #include "geom/math/measures.h"
-#include "geom/mesh/sheets.h"
+#include "geom/mesh/baffles.h"
 
 namespace sterna {
 namespace {
@@ -19,9 +19,9 @@ constexpr int k_volume_digits = 4;
 constexpr double k_region_rounding = 1e-9;  ///< relative to the volume of the bounding box
 
 /// Joins the two sides of discs.
-void join_sheets(const HybridMesh& mesh, DisjointSets& sets) {
-  const SheetSides sheets = find_sheet_sides(mesh);
-  for (std::uint32_t i = 0; i < sheets.twin.size(); ++i) sets.join(i, sheets.twin[i]);
+void join_baffles(const HybridMesh& mesh, DisjointSets& sets) {
+  const BaffleSides baffles = find_baffle_sides(mesh);
+  for (std::uint32_t i = 0; i < baffles.twin.size(); ++i) sets.join(i, baffles.twin[i]);
 }
 
 /// Returns for each node the lowest node of its region.
@@ -30,7 +30,7 @@ std::vector<std::uint32_t> region_of_nodes(const HybridMesh& mesh) {
   for_each_cell(mesh, [&](const Cell& cell) {
     for (int k = 1; k < n_nodes(cell.kind); ++k) sets.join(cell.nodes[0].value(), cell.nodes[static_cast<std::size_t>(k)].value());
   });
-  join_sheets(mesh, sets);
+  join_baffles(mesh, sets);
   return std::move(sets).roots();
 }
 
@@ -42,7 +42,7 @@ std::vector<std::uint32_t> shell_of_nodes(const HybridMesh& mesh) {
   };
   for (const BoundaryTriangle& face : mesh.boundary_triangles) join(face.nodes);
   for (const BoundaryQuad& face : mesh.boundary_quads) join(face.nodes);
-  join_sheets(mesh, sets);
+  join_baffles(mesh, sets);
   return std::move(sets).roots();
 }
 

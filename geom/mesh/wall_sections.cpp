@@ -41,12 +41,12 @@ WallSections::WallSections(Borrowed<const HybridMesh> mesh, const RunContext& co
 }
 
 void WallSections::choose_triangles(const HybridMesh& mesh) {
-  std::vector<std::uint8_t> is_foot(mesh.points.size(), 0);
+  std::vector<std::uint8_t> is_base_vertex(mesh.points.size(), 0);
   for (std::size_t line = 0; line < mesh.layers.n_lines(); ++line)
-    if (!mesh.layers.is_collapsed[line]) is_foot[mesh.layers.first_node[line]] = 1;
+    if (!mesh.layers.is_collapsed[line]) is_base_vertex[mesh.layers.first_node[line]] = 1;
   const std::vector<std::uint8_t> is_outer = has_patches(mesh) ? outer_walls(mesh) : std::vector<std::uint8_t>(mesh.patches.size(), 0);
   const auto rank = [&](const auto& face) {
-    const bool is_base = std::all_of(face.nodes.begin(), face.nodes.end(), [&](NodeId node) { return is_foot[node.index()] != 0; });
+    const bool is_base = std::all_of(face.nodes.begin(), face.nodes.end(), [&](NodeId node) { return is_base_vertex[node.index()] != 0; });
     if (face.patch.index() >= mesh.patches.size()) return rank_of(PatchKind::farfield, is_base, false);
     return rank_of(mesh.patches[face.patch].kind, is_base, is_outer[face.patch.index()] != 0);
   };
@@ -180,11 +180,11 @@ double WallSections::layer_near(const Point& p) const {
   const LayerBlock& layers = mesh_.layers;
   double height = 0.0, least = std::numeric_limits<double>::infinity();
   for (std::size_t line = 0; line < layers.n_lines(); ++line) {
-    const Point& foot = point(layers.first_node[line]);
-    const double away = norm2(foot - p);
+    const Point& base_point = point(layers.first_node[line]);
+    const double away = norm2(base_point - p);
     if (away >= least) continue;
     least = away;
-    height = distance(foot, mesh_.points[layers.top(static_cast<std::uint32_t>(line))]);
+    height = distance(base_point, mesh_.points[layers.top(static_cast<std::uint32_t>(line))]);
   }
   return height;
 }

@@ -119,16 +119,16 @@ std::string_view to_string(ControlKind kind);
 
 /// Named part of a wing's surface: the location of a control surface. It lies behind (or ahead of) a border across sections, or is the whole chord.
 struct WingPatch {
-  struct Place {
+  struct Location {
     double section = 0.0;  ///< number of the section, counted from tip to tip (both halves of a symmetric wing); fractions: between two sections
     double upper = 1.0;    ///< where the border crosses the upper side: parameter of rows (section_rows.h), from 0 at the trailing edge to 1 at the leading
                            ///< edge
     double lower = 1.0;
-    friend bool operator==(const Place&, const Place&) = default;
+    friend bool operator==(const Location&, const Location&) = default;
   };
   /// The moving part is a separate solid. The rest of the wing has a cut-out with a cove and side walls, and ends at the patch's border.
   struct Slot {
-    std::vector<Place> hinge;     ///< points at the sections of the border where the hinge crosses the upper and lower side
+    std::vector<Location> hinge;  ///< points at the sections of the border where the hinge crosses the upper and lower side
     double from = 0.0, to = 0.0;  ///< sections between which the moving part extends, within those of the border
     bool is_flat = false;         ///< nose of the moving part is flat
     Transform motion;             ///< motion of the moving part, component axes
@@ -136,7 +136,7 @@ struct WingPatch {
   };
   std::string name;
   ControlKind kind = ControlKind::trailing_edge;
-  std::vector<Place> border;  ///< at least 2, by ascending section; between them the border is straight in the parameters of the sides
+  std::vector<Location> border;  ///< at least 2, by ascending section; between them the border is straight in the parameters of the sides
   std::optional<Slot> slot;
   friend bool operator==(const WingPatch&, const WingPatch&) = default;
 };

@@ -43,15 +43,15 @@ std::vector<double> spaced(const Curve& curve, double from, double to, int n) {
     const double speed = norm(d.first), curvature = norm(cross(d.first, d.second)) / std::max(speed * speed * speed, 1e-300);
     sum.push_back(sum.back() + speed * std::abs(h) * (1.0 / length + std::sqrt(curvature / length)));
   }
-  std::vector<double> places{from};
+  std::vector<double> locations{from};
   std::size_t i = 0;
   for (int k = 1; k < n; ++k) {
     const double target = sum.back() * k / n;
     while (sum[i + 1] < target) ++i;
-    places.push_back(from + h * (static_cast<double>(i) + (target - sum[i]) / (sum[i + 1] - sum[i])));
+    locations.push_back(from + h * (static_cast<double>(i) + (target - sum[i]) / (sum[i + 1] - sum[i])));
   }
-  places.push_back(to);
-  return places;
+  locations.push_back(to);
+  return locations;
 }
 
 }  // namespace
@@ -151,12 +151,12 @@ Repaneled repaneled(const Airfoil& airfoil, int n_side) {
   if (n_side < 5 || n_side > k_max_side)
     throw_bad_argument("repaneling airfoil " + airfoil.name, std::to_string(n_side) + " points along a side, must be 5 .. " + std::to_string(k_max_side));
   const AirfoilCurves curves = airfoil_curves(airfoil);
-  std::vector<double> places = spaced(*curves.around, 0.0, curves.leading_edge, n_side);
+  std::vector<double> locations = spaced(*curves.around, 0.0, curves.leading_edge, n_side);
   const std::vector<double> lower = spaced(*curves.around, curves.leading_edge, 1.0, n_side);
-  places.insert(places.end(), lower.begin() + 1, lower.end());
+  locations.insert(locations.end(), lower.begin() + 1, lower.end());
   Repaneled result;
   result.airfoil.name = airfoil.name;
-  for (const double t : places) {
+  for (const double t : locations) {
     const Point p = curves.around->point(t);
     result.airfoil.points.push_back({p.x, p.z});
   }

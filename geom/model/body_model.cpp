@@ -86,9 +86,9 @@ bool is_point(const std::vector<Point>& row) {
 }
 
 void BodyBuilder::check_frames() const {
-  const auto refuse = [&](const std::string& problem, const Point& place) {
+  const auto refuse = [&](const std::string& problem, const Point& location) {
     throw Error(
-        {.code = ErrorCode::bad_argument, .attempted = "making body '" + body_.name + "'", .problem = problem, .places = {{map_.point(place), "frame"}}});
+        {.code = ErrorCode::bad_argument, .attempted = "making body '" + body_.name + "'", .problem = problem, .locations = {{map_.point(location), "frame"}}});
   };
   if (body_.frames.size() < 2) refuse("the body has " + std::to_string(body_.frames.size()) + " frames; at least 2 are needed", {});
   for (std::size_t i = 1; i < rows_.size(); ++i) {

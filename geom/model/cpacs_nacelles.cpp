@@ -19,7 +19,7 @@ CowlSection read_section(Document& document, const Node& node) {
   section.name = file.text(node, "uID");
   const Transformation t = read_transformation(document, node);
   section.angle = t.translation.x * k_degree;
-  if (norm(t.rotation) > 0.0) file.tell(node, "rotations of nacelle sections are not supported; this rotation was ignored");
+  if (norm(t.rotation) > 0.0) file.report(node, "rotations of nacelle sections are not supported; this rotation was ignored");
   for (const Uv p : read_curve_profile(document, node, XmlFile::child_text(node, "profileUID")))
     section.profile.push_back({t.scaling.x * p.u + t.translation.y, t.scaling.y * p.v + t.translation.z});
   orient(section.profile, -1.0);  // the inner side comes first
@@ -36,8 +36,8 @@ Cowl read_cowl(Document& document, const Node& node) {
   for (const Node section : node.child("sections").children("section")) cowl.sections.push_back(read_section(document, section));
   if (cowl.sections.empty()) file.fail(node, "the cowl has no section");
   std::stable_sort(cowl.sections.begin(), cowl.sections.end(), [](const CowlSection& a, const CowlSection& b) { return a.angle < b.angle; });
-  if (node.child("guideCurves")) file.tell(node.child("guideCurves"), "guide curves are not supported; the cowl is a smooth ring through its sections");
-  if (node.child("rotationCurve")) file.tell(node.child("rotationCurve"), "rotation curves are not supported; the inner side follows the sections");
+  if (node.child("guideCurves")) file.report(node.child("guideCurves"), "guide curves are not supported; the cowl is a smooth ring through its sections");
+  if (node.child("rotationCurve")) file.report(node.child("rotationCurve"), "rotation curves are not supported; the inner side follows the sections");
   return cowl;
 }
 

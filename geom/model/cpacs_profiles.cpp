@@ -150,7 +150,7 @@ std::vector<Uv> read_fuselage_profile(Document& document, const Node& from, cons
                        std::abs(points.back().u) <= k_same_profile_point;
   const bool is_half = is_open && (std::all_of(points.begin(), points.end(), [](Uv p) { return p.u >= -k_same_profile_point; }) ||
                                    std::all_of(points.begin(), points.end(), [](Uv p) { return p.u <= k_same_profile_point; }));
-  if (is_half && symmetry.empty()) document.file.tell(node, "the profile is an open half; the other half was added by mirroring");
+  if (is_half && symmetry.empty()) document.file.report(node, "the profile is an open half; the other half was added by mirroring");
   if (symmetry == "x-z-plane" || is_half) {  // one half is given: add the other one
     std::vector<Uv> other = points;
     for (Uv& p : other) p.u = -p.u;

@@ -87,11 +87,11 @@ class Reader {
  private:
   struct Element {
     Node node;
-    Transform place;  ///< maps the profile into component axes
+    Transform location;  ///< maps the profile into component axes
   };
   void header();
   void read_model(const Node& model);
-  Transform place_of(const Node& component);
+  Transform location_of(const Node& component);
   Vec3 translation_of(const Node& component, std::set<std::string>& visited);
   std::map<std::string, Vec3> positionings(const Node& component);
   std::vector<Element> chain(const Node& component);
@@ -145,8 +145,8 @@ Vec3 Reader::translation_of(const Node& component, std::set<std::string>& visite
   if (own.is_absolute || parent_uid.empty()) return own.translation;
   Node parent = document_.find(parent_uid);
   if (!parent) {
-    file_.tell(component.child("parentUID"),
-               "the file has no element with the uID '" + parent_uid + "'; the component is placed from the origin of the aircraft instead");
+    file_.report(component.child("parentUID"),
+                 "the file has no element with the uID '" + parent_uid + "'; the component is placed from the origin of the aircraft instead");
     return own.translation;
   }
   const auto is_component = [](const Node& node) {
@@ -158,7 +158,7 @@ Vec3 Reader::translation_of(const Node& component, std::set<std::string>& visite
   return own.translation + translation_of(parent, visited);
 }
 
-Transform Reader::place_of(const Node& component) {
+Transform Reader::location_of(const Node& component) {
   Transformation t = read_transformation(document_, component);
   std::set<std::string> visited;
   t.translation = translation_of(component, visited);
@@ -186,7 +186,7 @@ std::map<std::string, Vec3> Reader::positionings(const Node& component) {
   for (const Node section : component.child("sections").children("section")) sections.insert(file_.text(section, "uID"));
   std::map<std::string, Vec3> positions;
   for (const auto& [section, step] : steps) {
-    if (!sections.contains(section)) file_.tell(step.node, "the component has no section '" + section + "'; this positioning has no effect");
+    if (!sections.contains(section)) file_.report(step.node, "the component has no section '" + section + "'; this positioning has no effect");
     if (!step.from.empty() && !sections.contains(step.from) && !steps.contains(step.from))
       file_.fail(step.node, "section '" + section + "' is positioned from '" + step.from + "', but the component has no such section");
     Vec3 sum;
@@ -212,7 +212,7 @@ std::vector<Reader::Element> Reader::chain(const Node& component) {
   std::vector<std::string> order;
   for (const Node node : component.child("segments").children("segment")) {
     file_.warn_unknown(node, "uID xsi:type", {"name description fromElementUID toElementUID guideCurves", k_no_shape});
-    if (node.child("guideCurves")) file_.tell(node.child("guideCurves"), "guide curves are not supported; the segment is made from its sections alone");
+    if (node.child("guideCurves")) file_.report(node.child("guideCurves"), "guide curves are not supported; the segment is made from its sections alone");
     const std::string from = XmlFile::child_text(node, "fromElementUID"), to = XmlFile::child_text(node, "toElementUID");
     if (!next.emplace(from, Link{node, to}).second) file_.fail(node, "two segments begin at element '" + from + "'; branched components are not supported");
     if (!targets.insert(to).second) file_.fail(node, "two segments end at element '" + to + "'; branched components are not supported");
@@ -245,7 +245,7 @@ void Reader::wing(const Node& node, bool is_pylon) {
   wing.name = file_.required_text(node, "uID");
   wing.is_pylon = is_pylon;
   wing.right_tip = wing.left_tip = {CapShape::strip, 0.0};
-  const Transform place = place_of(node);
+  const Transform location = location_of(node);
   const std::vector<Element> elements = chain(node);
   double size = 0.0;
   for (const Element& element : elements) {
@@ -253,7 +253,7 @@ void Reader::wing(const Node& node, bool is_pylon) {
     section.name = file_.text(element.node, "uID");
     section.airfoil = XmlFile::child_text(element.node, "airfoilUID");
     section.points = read_airfoil(document_, element.node, section.airfoil);
-    const Transform map = place * element.place;
+    const Transform map = location * element.location;
     for (const Uv p : section.points) section.loop.push_back(map.point({p.u, 0.0, p.v}));
     section.leading_edge = map.point({});
     section.chord = norm(map.vector({1.0, 0.0, 0.0}));
@@ -297,11 +297,11 @@ void Reader::devices(const Node& node, const Wing& wing, const std::vector<Eleme
     across.push_back(across.back() + std::hypot(step.y, step.z));
   }
   const auto span_at = [&](std::size_t from, std::size_t to, double eta) {
-    const double wanted = across[from] + eta * (across[to] - across[from]);
+    const double target = across[from] + eta * (across[to] - across[from]);
     std::size_t i = 1;
-    while (i + 1 < across.size() && wanted > across[i]) ++i;
+    while (i + 1 < across.size() && target > across[i]) ++i;
     const double length = across[i] - across[i - 1];
-    return (span[i - 1] + (length > 0.0 ? (wanted - across[i - 1]) / length : 0.0) * (span[i] - span[i - 1])) / span.back();
+    return (span[i - 1] + (length > 0.0 ? (target - across[i - 1]) / length : 0.0) * (span[i] - span[i - 1])) / span.back();
   };
   const auto index_of = [&](const Node& from, const std::string& uid) {
     for (std::size_t i = 0; i < elements.size(); ++i)
@@ -336,12 +336,12 @@ void Reader::devices(const Node& node, const Wing& wing, const std::vector<Eleme
             const double eta = value(hinge_eta, "eta"), xsi = value(is_trailing ? "xsiLE" : "xsiTE", "xsi");
             const double other_eta = border.child(other) ? value(other, "eta") : eta;
             if (other_eta != eta)
-              file_.tell(border,
-                         "the border is placed along the flow direction at " + std::string(hinge_eta) + "; its other end is at " + exact_text(other_eta));
+              file_.report(border,
+                           "the border is placed along the flow direction at " + std::string(hinge_eta) + "; its other end is at " + exact_text(other_eta));
             const std::string reference_uid = XmlFile::child_text(border.child(hinge_eta), "referenceUID");
             Node reference = document_.find(reference_uid);
             if (!reference && !reference_uid.empty())
-              file_.tell(border, "the file has no element with the uID '" + reference_uid + "'; the border is taken along this component segment instead");
+              file_.report(border, "the file has no element with the uID '" + reference_uid + "'; the border is taken along this component segment instead");
             if (!reference || !reference.child("fromElementUID")) reference = segment;
             const std::size_t from = index_of(reference, XmlFile::child_text(reference, "fromElementUID")),
                               to = index_of(reference, XmlFile::child_text(reference, "toElementUID"));
@@ -364,12 +364,12 @@ void Reader::fuselage(const Node& node) {
   Body body;
   body.name = file_.required_text(node, "uID");
   body.has_mirror_image = is_mirrored(node);
-  const Transform place = place_of(node);
+  const Transform location = location_of(node);
   for (const Element& element : chain(node)) {
     BodyFrame frame;
     frame.name = file_.text(element.node, "uID");
     frame.shape = FrameShape::loop;
-    const Transform map = place * element.place;
+    const Transform map = location * element.location;
     for (const Uv p : read_fuselage_profile(document_, element.node, XmlFile::child_text(element.node, "profileUID")))
       frame.loop.push_back(map.point({0.0, p.u, p.v}));
     Point low = frame.loop.front(), high = low;
@@ -391,10 +391,10 @@ void Reader::engine(const Node& node) {
   const Node engine = document_.resolve(node, XmlFile::child_text(node, "engineUID"));
   const Node nacelle = engine.child("nacelle");
   if (!nacelle.child("fanCowl") && !nacelle.child("coreCowl") && !nacelle.child("centerCowl")) {
-    file_.tell(engine, "the engine has no cowls and is left out");
+    file_.report(engine, "the engine has no cowls and is left out");
     return;
   }
-  CowlNacelle read = read_nacelle(document_, node, place_of(node));
+  CowlNacelle read = read_nacelle(document_, node, location_of(node));
   read.has_mirror_image = is_mirrored(node);
   reading_.aircraft.nacelles.push_back(std::move(read));
 }
@@ -422,7 +422,7 @@ AircraftReading Reader::read() {
   const Node model = aircraft.child("model");
   if (!model) file_.fail(file_.root(), "the file has no aircraft model");
   for (Node other = model.next_sibling("model"); other; other = other.next_sibling("model"))
-    file_.tell(other, "only the first model is read; this model was left out");
+    file_.report(other, "only the first model is read; this model was left out");
   read_model(model);
   if (reading_.aircraft.wings.empty() && reading_.aircraft.bodies.empty() && reading_.aircraft.nacelles.empty())
     file_.fail(model, "the model has no wing, fuselage or nacelle");

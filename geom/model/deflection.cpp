@@ -49,7 +49,7 @@ struct Reach {
 
 Reach reach_of(const Deflection& d, const WingSpan& span) {
   const double from = std::max(d.surface.hinge.front().span, 0.0), to = std::min(d.surface.hinge.back().span, 1.0);
-  const double chord = 0.5 * (norm(chord_vector(span.row(span.place_of(from)))) + norm(chord_vector(span.row(span.place_of(to)))));
+  const double chord = 0.5 * (norm(chord_vector(span.row(span.location_of(from)))) + norm(chord_vector(span.row(span.location_of(to)))));
   const double fairing = d.fairing == Deflection::k_automatic_fairing ? 0.1 * chord : d.fairing;
   const double slot = d.slot == Deflection::k_automatic_slot ? 0.01 * chord : d.slot,
                end_gap = d.end_gap == Deflection::k_automatic_slot ? 0.01 * chord : d.end_gap;
@@ -72,11 +72,11 @@ double hinge_chord(const Deflection& d, double s) {
 }
 
 /// Point of the hinge line in a row, half way between upper and lower side, and the thickness there.
-struct HingePlace {
+struct HingeLocation {
   Point point;
   double thickness = 0.0;
 };
-HingePlace hinge_place(const Row& row, double fraction) {
+HingeLocation hinge_location(const Row& row, double fraction) {
   const Vec3 chord = chord_vector(row);
   const auto part = [&](const Point& p) { return dot(p - row[k_nose], chord) / norm2(chord); };
   const auto side = [&](bool is_upper) {
@@ -155,7 +155,7 @@ bool draw_in(Deflection& d, bool is_first, double span) {
   return true;
 }
 
-Point hinge_point(const HingePoint& h, const WingSpan& span) { return hinge_place(span.row(span.place_of(std::clamp(h.span, 0.0, 1.0))), h.chord).point; }
+Point hinge_point(const HingePoint& h, const WingSpan& span) { return hinge_location(span.row(span.location_of(std::clamp(h.span, 0.0, 1.0))), h.chord).point; }
 
 /// Returns the unit direction; positive angles about it turn trailing edges down: about +y (a fin: +z, to the right).
 Vec3 hinge_axis(const Point& a, const Point& b) {
@@ -170,7 +170,7 @@ void turn(Row& row, double s, const Deflection& d, const WingSpan& span) {
   const double share = outside >= reach.fade * (1.0 - k_same_span) && outside > 0.0 ? 0.0 : 1.0 - smooth_step(reach.fade > 0.0 ? outside / reach.fade : 0.0);
   if (share == 0.0) return;
   const double fraction = hinge_chord(d, s);
-  const HingePlace hinge = hinge_place(row, fraction);
+  const HingeLocation hinge = hinge_location(row, fraction);
   // The hinge line is the straight segment that contains s.
   std::size_t i = 0;
   while (i + 2 < d.surface.hinge.size() && s > d.surface.hinge[i + 1].span) ++i;
@@ -220,13 +220,13 @@ double straight_chord(const Deflection& d, const StraightHinge& hinge, const Row
   const Point& nose = row[k_nose];
   const Point at = hinge.from + dot(nose - hinge.from, normal) / dot(hinge.to - hinge.from, normal) * (hinge.to - hinge.from);
   const Vec3 chord = chord_vector(row);
-  const double fraction = dot(at - nose, chord) / norm2(chord), off = distance(hinge_place(row, fraction).point, at);
+  const double fraction = dot(at - nose, chord) / norm2(chord), off = distance(hinge_location(row, fraction).point, at);
   if (!(fraction > k_min_open_chord && fraction < 1.0 - k_min_open_chord && off <= k_max_bend * slot))
     throw Error({.code = ErrorCode::bad_argument,
                  .attempted = "deflecting '" + d.surface.name + "'",
                  .problem = "the straight line between the ends of the hinge deviates from the middle of the wing section by " + std::to_string(off) +
                             " m at " + std::to_string(fraction) + " of the chord; the slot is " + std::to_string(slot) + " m",
-                 .places = {{at, "hinge line"}},
+                 .locations = {{at, "hinge line"}},
                  .hint = "give one control surface for each straight piece, or a wider slot"});
   return fraction;
 }
@@ -310,7 +310,7 @@ Wing bent_wing(const Wing& wing, const WingSpan& span, const std::vector<Stop>& 
   if (wing.is_symmetric) bent.left_tip = wing.left_tip;
   for (const Stop& stop : stops) {
     WingSection section{.name = "at " + std::to_string(stop.at) + " of the span"};
-    section.loop = span.row(span.place_of(stop.at));
+    section.loop = span.row(span.location_of(stop.at));
     section.is_row = true;
     section.is_break = stop.is_break;
     for (const Deflection& d : deflections)
@@ -323,10 +323,10 @@ Wing bent_wing(const Wing& wing, const WingSpan& span, const std::vector<Stop>& 
 }
 
 /// Returns the index of a fraction of the span among the stops (within rounding), or among the wing's own rows if there are no stops.
-double place_among(const WingSpan& span, const std::vector<Stop>& stops, double s) {
+double location_among(const WingSpan& span, const std::vector<Stop>& stops, double s) {
   if (stops.empty()) {
-    const double place = span.place_of(s);
-    return std::abs(place - std::round(place)) <= k_same_span ? std::round(place) : place;
+    const double location = span.location_of(s);
+    return std::abs(location - std::round(location)) <= k_same_span ? std::round(location) : location;
   }
   for (std::size_t i = 0; i < stops.size(); ++i) {
     if (std::abs(s - stops[i].at) <= k_same_span) return static_cast<double>(i);
@@ -355,19 +355,19 @@ WingPatch patch_of(const Deflection& d, const WingSpan& span, const std::vector<
   const bool has_lips = is_open(d) && d.surface.kind != ControlKind::all_moving;
   double last = -1.0;
   for (const double s : at) {
-    const double place = place_among(span, stops, s);
-    if (place <= last) continue;
-    last = place;
-    const Row row = span.row(span.place_of(s));
+    const double location = location_among(span, stops, s);
+    if (location <= last) continue;
+    last = location;
+    const Row row = span.row(span.location_of(s));
     const RowCrossing hinge =
         d.surface.kind == ControlKind::all_moving ? RowCrossing{} : row_crossing(row, has_lips ? straight_chord(d, line, row, reach.slot) : hinge_chord(d, s));
     const RowCrossing border = has_lips ? lip_of(d, row, hinge, reach.slot) : hinge;
-    patch.border.push_back({place, border.upper, border.lower});
-    if (patch.slot) patch.slot->hinge.push_back({place, hinge.upper, hinge.lower});
+    patch.border.push_back({location, border.upper, border.lower});
+    if (patch.slot) patch.slot->hinge.push_back({location, hinge.upper, hinge.lower});
   }
   if (patch.slot) {
-    patch.slot->from = place_among(span, stops, moving_from(reach));
-    patch.slot->to = place_among(span, stops, moving_to(reach));
+    patch.slot->from = location_among(span, stops, moving_from(reach));
+    patch.slot->to = location_among(span, stops, moving_to(reach));
   }
   return patch;
 }
@@ -413,9 +413,9 @@ ControlSurface from_root(const Wing& wing, ControlSurface surface) {
   const WingSpan span(wing);
   const double end = static_cast<double>(span.rows().size() - 1);
   for (HingePoint& h : surface.hinge) {
-    const double place = span.place_from_root(wing, h.span);
+    const double location = span.location_from_root(wing, h.span);
     // Beyond the ends (over the tip) lengths are extrapolated.
-    h.span = place < 0.0 || place > end ? (place < 0.0 ? -1e-3 : 1.0 + 1e-3) : span.fraction_of(place);
+    h.span = location < 0.0 || location > end ? (location < 0.0 ? -1e-3 : 1.0 + 1e-3) : span.fraction_of(location);
   }
   std::sort(surface.hinge.begin(), surface.hinge.end(), [](const HingePoint& a, const HingePoint& b) { return a.span < b.span; });
   return surface;

@@ -19,16 +19,16 @@ template <class SurfaceMap, class CurveMap>
 void replace_geometry(Model& model, const SurfaceMap& map_surface, const CurveMap& map_curve) {
   std::map<const Surface*, SurfacePtr> surfaces;
   for (ModelFace& face : model.faces) {
-    auto [place, is_new] = surfaces.try_emplace(face.surface.get());
-    if (is_new) place->second = map_surface(face.surface);
-    face.surface = place->second;
+    auto [location, is_new] = surfaces.try_emplace(face.surface.get());
+    if (is_new) location->second = map_surface(face.surface);
+    face.surface = location->second;
   }
   std::map<const Curve*, CurvePtr> curves;
   for (ModelEdge& edge : model.edges) {
     if (edge.is_degenerate()) continue;
-    auto [place, is_new] = curves.try_emplace(edge.curve.get());
-    if (is_new) place->second = map_curve(edge.curve);
-    edge.curve = place->second;
+    auto [location, is_new] = curves.try_emplace(edge.curve.get());
+    if (is_new) location->second = map_curve(edge.curve);
+    edge.curve = location->second;
   }
   model.shape.reset();  // it represents the old geometry
 }
@@ -108,23 +108,23 @@ double check_fold_over(const Model& model, const SpaceMap& map, const RunContext
   struct Fold {
     double determinant;
     std::size_t face;
-    Point place;
+    Point location;
   };
   std::vector<Fold> folds;
   for (std::size_t f = 0; f < faces.size(); ++f) {
     stretch = std::max(stretch, faces[f].largest);
-    for (const auto& [determinant, place] : faces[f].folded) folds.push_back({determinant, f, place});
+    for (const auto& [determinant, location] : faces[f].folded) folds.push_back({determinant, f, location});
   }
   if (folds.empty()) return stretch;
   std::stable_sort(folds.begin(), folds.end(), [](const Fold& a, const Fold& b) { return a.determinant < b.determinant; });
   ErrorInfo info{.code = ErrorCode::self_intersection,
                  .attempted = "deforming a model",
                  .problem = "the deformation folds space: the determinant of its Jacobian is " + number_text(folds.front().determinant) + ", must be positive",
-                 .n_places = static_cast<std::int64_t>(folds.size()),
+                 .n_locations = static_cast<std::int64_t>(folds.size()),
                  .hint = "make displacements smaller, or let them change over a longer distance"};
-  constexpr std::size_t k_places = 5;
-  for (std::size_t i = 0; i < std::min(k_places, folds.size()); ++i)
-    info.places.push_back({folds[i].place, "face " + model.faces.raw()[folds[i].face].name + ", determinant " + number_text(folds[i].determinant)});
+  constexpr std::size_t k_locations = 5;
+  for (std::size_t i = 0; i < std::min(k_locations, folds.size()); ++i)
+    info.locations.push_back({folds[i].location, "face " + model.faces.raw()[folds[i].face].name + ", determinant " + number_text(folds[i].determinant)});
   throw Error(std::move(info));
 }
 

@@ -36,7 +36,7 @@ inline constexpr int k_fold_over_samples = 32;
 Model deformed(const Model& model, const SpaceMapPtr& map, const RunContext& context);
 
 /// Location of a surface mesh vertex on its model.
-struct VertexPlace {
+struct VertexLocation {
   FaceId face;
   Uv at;
 };

@@ -26,8 +26,8 @@ PatchKind patch_kind(const ModelFace& face) {
   }
 }
 
-Column<EdgeId, std::vector<EdgeUsePlace>> uses_of_edges(const Model& model) {
-  Column<EdgeId, std::vector<EdgeUsePlace>> uses(model.edges.size());
+Column<EdgeId, std::vector<EdgeUseLocation>> uses_of_edges(const Model& model) {
+  Column<EdgeId, std::vector<EdgeUseLocation>> uses(model.edges.size());
   for (const FaceId f : model.faces.ids()) {
     const std::vector<Border>& borders = model.faces[f].borders;
     for (std::uint32_t b = 0; b < borders.size(); ++b)
@@ -37,7 +37,7 @@ Column<EdgeId, std::vector<EdgeUsePlace>> uses_of_edges(const Model& model) {
 }
 
 std::vector<EdgeId> free_edges(const Model& model) {
-  const Column<EdgeId, std::vector<EdgeUsePlace>> uses = uses_of_edges(model);
+  const Column<EdgeId, std::vector<EdgeUseLocation>> uses = uses_of_edges(model);
   std::vector<EdgeId> result;
   for (const EdgeId e : model.edges.ids())
     if (uses[e].size() == 1 && !model.edges[e].is_degenerate()) result.push_back(e);

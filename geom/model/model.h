@@ -115,12 +115,12 @@ struct Model {
 };
 
 /// All uses of an edge: (face, border, position in it), in ascending order of faces.
-struct EdgeUsePlace {
+struct EdgeUseLocation {
   FaceId face;
   std::uint32_t border = 0;
-  std::uint32_t place = 0;
+  std::uint32_t location = 0;
 };
-Column<EdgeId, std::vector<EdgeUsePlace>> uses_of_edges(const Model& model);
+Column<EdgeId, std::vector<EdgeUseLocation>> uses_of_edges(const Model& model);
 /// Returns the edges with a single use that are not degenerate: the open boundary of a shell.
 std::vector<EdgeId> free_edges(const Model& model);
 

@@ -20,8 +20,8 @@ constexpr double k_off_surface = 1e-9;
 /// Allowed distance of a planar border from its plane, relative to its size. It covers the rounding of rotations.
 constexpr double k_off_plane = 1e-9;
 
-[[noreturn]] void refuse_model(ErrorCode code, const std::string& problem, std::vector<ErrorPlace> places = {}) {
-  throw Error({.code = code, .attempted = "building a model", .problem = problem, .places = std::move(places)});
+[[noreturn]] void refuse_model(ErrorCode code, const std::string& problem, std::vector<ErrorLocation> locations = {}) {
+  throw Error({.code = code, .attempted = "building a model", .problem = problem, .locations = std::move(locations)});
 }
 
 Point at_part(const ModelEdge& edge, double part) { return edge.curve->point(edge.range.from + part * edge.range.length()); }
@@ -243,8 +243,8 @@ double signed_volume(const Model& model, const ModelSolid& solid) {
 
 void orient_outwards(Model& model, SolidId solid_id) {
   const ModelSolid& solid = model.solids[solid_id];
-  const Column<EdgeId, std::vector<EdgeUsePlace>> uses = uses_of_edges(model);
-  const auto use = [&](const EdgeUsePlace& place) -> const EdgeUse& { return model.faces[place.face].borders[place.border][place.place]; };
+  const Column<EdgeId, std::vector<EdgeUseLocation>> uses = uses_of_edges(model);
+  const auto use = [&](const EdgeUseLocation& location) -> const EdgeUse& { return model.faces[location.face].borders[location.border][location.location]; };
   for (const FaceId f : solid.faces)
     for (const Border& border : model.faces[f].borders)
       for (const EdgeUse& u : border)
@@ -262,17 +262,17 @@ void orient_outwards(Model& model, SolidId solid_id) {
     for (const Border& border : model.faces[f].borders)
       for (const EdgeUse& u : border) {
         if (model.edges[u.edge].is_degenerate()) continue;
-        const std::vector<EdgeUsePlace>& pair = uses[u.edge];
+        const std::vector<EdgeUseLocation>& pair = uses[u.edge];
         if (pair[0].face == pair[1].face) continue;  // a seam
-        const EdgeUsePlace& other = pair[0].face == f ? pair[1] : pair[0];
+        const EdgeUseLocation& other = pair[0].face == f ? pair[1] : pair[0];
         ModelFace& neighbour = model.faces[other.face];
-        const bool wanted =
+        const bool target =
             u.is_reversed != model.faces[f].is_reversed ? use(other).is_reversed : !use(other).is_reversed;  // the effective directions must differ
         if (!is_done[other.face]) {
-          neighbour.is_reversed = wanted;
+          neighbour.is_reversed = target;
           is_done[other.face] = 1;
           queue.push_back(other.face);
-        } else if (neighbour.is_reversed != wanted) {
+        } else if (neighbour.is_reversed != target) {
           refuse_model(ErrorCode::internal,
                        "solid '" + solid.name + "': faces '" + model.faces[f].name + "' and '" + neighbour.name + "' cannot be oriented alike",
                        {{at_part(model.edges[u.edge], 0.5), "their edge"}});

@@ -13,8 +13,8 @@ namespace {
 
 /// Cross section of the part. It consists of pieces of both sides of the wing, from the trailing edge towards the leading edge.
 struct PartSection {
-  double place = 0.0;
-  WingPatch::Place hinge;
+  double location = 0.0;
+  WingPatch::Location hinge;
   SplitCurve upper, lower;
   EdgeId thickness;  ///< edge of a blunt trailing edge
   SlotStation nose;
@@ -31,8 +31,8 @@ class PartBuilder {
   Model build();
 
  private:
-  std::vector<double> places() const;
-  PartSection section(double place);
+  std::vector<double> locations() const;
+  PartSection section(double location);
   void faces(const PartSection& a, const PartSection& b, EdgeId& upper_hinge, EdgeId& lower_hinge);
 
   const WingPatch& patch_;
@@ -41,20 +41,20 @@ class PartBuilder {
   ModelBuilder builder_;
 };
 
-std::vector<double> PartBuilder::places() const {
-  std::vector<double> places{patch_.slot->from, patch_.slot->to};
-  const auto add = [&](double place) {
-    if (place > patch_.slot->from && place < patch_.slot->to) add_sorted(places, place);
+std::vector<double> PartBuilder::locations() const {
+  std::vector<double> locations{patch_.slot->from, patch_.slot->to};
+  const auto add = [&](double location) {
+    if (location > patch_.slot->from && location < patch_.slot->to) add_sorted(locations, location);
   };
-  for (const WingPatch::Place& p : patch_.slot->hinge) add(p.section);
+  for (const WingPatch::Location& p : patch_.slot->hinge) add(p.section);
   for (const WingSides& panel : panels_) add(static_cast<double>(panel.first_row));
-  return places;
+  return locations;
 }
 
-PartSection PartBuilder::section(double place) {
-  const WingSides& sides = panel_at(panels_, place, place > patch_.slot->from);
-  const double v = sides.v(place);
-  PartSection s{.place = place, .hinge = crossing_at(patch_.slot->hinge, place)};
+PartSection PartBuilder::section(double location) {
+  const WingSides& sides = panel_at(panels_, location, location > patch_.slot->from);
+  const double v = sides.v(location);
+  PartSection s{.location = location, .hinge = crossing_at(patch_.slot->hinge, location)};
   const CurvePtr upper = line_of_constant_v(sides.upper, v), lower = line_of_constant_v(sides.lower, v);
   const CornerId upper_hinge = builder_.corner(upper->point(s.hinge.upper)), lower_hinge = builder_.corner(lower->point(s.hinge.lower));
   const CornerId upper_end = builder_.corner(upper->point(is_flap_ ? 0.0 : 1.0)), lower_end = is_blunt_ ? builder_.corner(lower->point(0.0)) : upper_end;
@@ -67,14 +67,14 @@ PartSection PartBuilder::section(double place) {
   }
   if (is_blunt_) s.thickness = builder_.straight_edge(upper_end, lower_end);
   s.nose = {upper_hinge, lower_hinge, {}};
-  const HingeSection hinge = hinge_section(sides, patch_, place);
+  const HingeSection hinge = hinge_section(sides, patch_, location);
   if (!patch_.slot->is_flat) s.nose.bulge = Bulge{hinge.middle, hinge.ahead, 0.5 * distance(hinge.upper, hinge.lower)};
   return s;
 }
 
 void PartBuilder::faces(const PartSection& a, const PartSection& b, EdgeId& upper_hinge, EdgeId& lower_hinge) {
-  const WingSides& sides = panel_at(panels_, b.place, true);
-  const double from = sides.v(a.place), to = sides.v(b.place);
+  const WingSides& sides = panel_at(panels_, b.location, true);
+  const double from = sides.v(a.location), to = sides.v(b.location);
   const auto side = [&](const SplitCurve& start, const SplitCurve& end, double start_hinge, double end_hinge, const NurbsSurfaceForm& form,
                         const SurfacePtr& surface, EdgeId trailing) {
     const double far = is_flap_ ? 0.0 : 1.0;
@@ -105,7 +105,7 @@ void PartBuilder::faces(const PartSection& a, const PartSection& b, EdgeId& uppe
 
 Model PartBuilder::build() {
   std::vector<PartSection> sections;
-  for (const double place : places()) sections.push_back(section(place));
+  for (const double location : locations()) sections.push_back(section(location));
   std::vector<SlotStation> noses;
   std::vector<SplitCurve> nose_sections;
   for (const PartSection& s : sections) {

@@ -273,9 +273,9 @@ Airfoil naca_airfoil(std::string_view designation, int n_side) {
   if (is("(\\d)([1-5])([01])(\\d\\d)")) {
     const double lift = 0.15 * digit(match[1], 0);
     const bool is_reflexed = match[3] == "1";
-    const std::size_t place = static_cast<std::size_t>(digit(match[2], 0)) - 1;
-    if (is_reflexed && place == 0) refuse_designation(designation, "there is no reflexed mean line with the camber at 0.05 chords");
-    const FiveDigitLine& line = is_reflexed ? k_five_digit_reflexed[place] : k_five_digit[place];
+    const std::size_t location = static_cast<std::size_t>(digit(match[2], 0)) - 1;
+    if (is_reflexed && location == 0) refuse_designation(designation, "there is no reflexed mean line with the camber at 0.05 chords");
+    const FiveDigitLine& line = is_reflexed ? k_five_digit_reflexed[location] : k_five_digit[location];
     return combined(name, four_digit_thickness(checked_thickness(percent(match[4])), n_side),
                     [&](double x) { return five_digit_mean(line, is_reflexed, lift, x); });
   }

@@ -171,10 +171,10 @@ Model CowlBuilder::center_body(const std::vector<Uv>& given) {
 }  // namespace
 
 Model make_nacelle(const CowlNacelle& nacelle, const Transform& map) {
-  const Transform place = map * nacelle.placement;
+  const Transform location = map * nacelle.placement;
   Model model;
-  for (std::size_t i = 0; i < nacelle.cowls.size(); ++i) append(model, CowlBuilder(nacelle.name + (i == 0 ? "" : "Core"), place).ring(nacelle.cowls[i]));
-  if (!nacelle.center_body.empty()) append(model, CowlBuilder(nacelle.name + "Center", place).center_body(nacelle.center_body));
+  for (std::size_t i = 0; i < nacelle.cowls.size(); ++i) append(model, CowlBuilder(nacelle.name + (i == 0 ? "" : "Core"), location).ring(nacelle.cowls[i]));
+  if (!nacelle.center_body.empty()) append(model, CowlBuilder(nacelle.name + "Center", location).center_body(nacelle.center_body));
   return model;
 }
 

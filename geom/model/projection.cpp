@@ -198,7 +198,7 @@ void SurfaceProjector::move_inside(Uv& at) const {
   at.v = inside(at.v, box_.v, wraps_v_);
 }
 
-SurfaceFoot SurfaceProjector::descend(const Point& p, Uv at) const {
+SurfaceProjection SurfaceProjector::descend(const Point& p, Uv at) const {
   move_inside(at);
   SurfaceDerivatives d = surface_->derivatives(at);
   for (int step = 0; step < k_max_steps; ++step) {
@@ -255,14 +255,14 @@ SurfaceFoot SurfaceProjector::descend(const Point& p, Uv at) const {
   return {at, d.point, distance(d.point, p)};
 }
 
-SurfaceFoot SurfaceProjector::leave_pole(const Point& p, const SurfaceFoot& foot) const {
-  const SurfaceDerivatives d = surface_->derivatives(foot.at);
+SurfaceProjection SurfaceProjector::leave_pole(const Point& p, const SurfaceProjection& projection) const {
+  const SurfaceDerivatives d = surface_->derivatives(projection.at);
   const bool is_pole_u = norm(d.du) * box_.u.length() <= k_pole_speed * extent_;
   const bool is_pole_v = norm(d.dv) * box_.v.length() <= k_pole_speed * extent_;
-  if (is_pole_u == is_pole_v) return foot;
+  if (is_pole_u == is_pole_v) return projection;
   // The whole degenerate direction is one point: find the direction of steepest descent, and start slightly inside.
   const Interval along = is_pole_u ? box_.u : box_.v, across = is_pole_u ? box_.v : box_.u;
-  const double at_pole = is_pole_u ? foot.at.v : foot.at.u;
+  const double at_pole = is_pole_u ? projection.at.v : projection.at.u;
   const double inward = at_pole - across.from < across.to - at_pole ? 1.0 : -1.0;
   const auto derivatives_at = [&](double t) {
     SurfaceDerivatives e = surface_->derivatives(is_pole_u ? Uv{t, at_pole} : Uv{at_pole, t});
@@ -284,7 +284,7 @@ SurfaceFoot SurfaceProjector::leave_pole(const Point& p, const SurfaceFoot& foot
       best = t;
     }
   }
-  if (!(steepest < -k_no_step * extent_)) return foot;
+  if (!(steepest < -k_no_step * extent_)) return projection;
   double low = std::max(along.from, best - along.length() / k_pole_directions), high = std::min(along.to, best + along.length() / k_pole_directions);
   for (int k = 0; k < k_pole_sections; ++k) {  // golden section
     const double a = high - k_golden * (high - low), b = low + k_golden * (high - low);
@@ -296,17 +296,17 @@ SurfaceFoot SurfaceProjector::leave_pole(const Point& p, const SurfaceFoot& foot
   const double farthest = k_longest_step * across.length();
   const double reach = curvature > 0.0 ? std::min(farthest, -inward * dot(e.point - p, e.dv) / curvature) : farthest;
   const double inner = at_pole + inward * reach;
-  const SurfaceFoot other = descend(p, is_pole_u ? Uv{t, inner} : Uv{inner, t});
-  return other.distance < foot.distance ? other : foot;
+  const SurfaceProjection other = descend(p, is_pole_u ? Uv{t, inner} : Uv{inner, t});
+  return other.distance < projection.distance ? other : projection;
 }
 
-SurfaceFoot SurfaceProjector::seeded(const Point& p, Uv seed) const {
-  const SurfaceFoot foot = descend(p, seed);
-  const bool is_at_limit = foot.at.u == box_.u.from || foot.at.u == box_.u.to || foot.at.v == box_.v.from || foot.at.v == box_.v.to;
-  return is_at_limit ? leave_pole(p, foot) : foot;
+SurfaceProjection SurfaceProjector::seeded(const Point& p, Uv seed) const {
+  const SurfaceProjection projection = descend(p, seed);
+  const bool is_at_limit = projection.at.u == box_.u.from || projection.at.u == box_.u.to || projection.at.v == box_.v.from || projection.at.v == box_.v.to;
+  return is_at_limit ? leave_pole(p, projection) : projection;
 }
 
-SurfaceFoot SurfaceProjector::nearest(const Point& p) const {
+SurfaceProjection SurfaceProjector::nearest(const Point& p) const {
   const std::span<const BoxTree::Node> nodes = cells_.nodes();
   const std::size_t n_v = stations_v_.size() - 1;
   const auto middle_uv = [&](std::uint32_t cell) {
@@ -322,7 +322,7 @@ SurfaceFoot SurfaceProjector::nearest(const Point& p) const {
   const auto later = [](const Entry& a, const Entry& b) { return std::tie(a.bound, a.is_cell, a.index) > std::tie(b.bound, b.is_cell, b.index); };
   std::priority_queue<Entry, std::vector<Entry>, decltype(later)> queue(later);
   queue.push({distance_to(nodes[0].box, p), 0, false});
-  SurfaceFoot best;
+  SurfaceProjection best;
   best.distance = std::numeric_limits<double>::infinity();
   double best_sample = std::numeric_limits<double>::infinity();
   struct Candidate {
@@ -360,15 +360,16 @@ SurfaceFoot SurfaceProjector::nearest(const Point& p) const {
       for (std::size_t b = j - std::min<std::size_t>(j, 1); b <= std::min(j + 1, n_v - 1); ++b) is_minimum = is_minimum && is_passed[a * n_v + b] == 0;
     is_passed[candidate.cell] = 1;
     if (!is_minimum || distance_to(cells_.boxes()[candidate.cell], p) > best.distance) continue;
-    const SurfaceFoot foot = seeded(p, middle_uv(candidate.cell));
-    if (foot.distance < best.distance) best = foot;
+    const SurfaceProjection projection = seeded(p, middle_uv(candidate.cell));
+    if (projection.distance < best.distance) best = projection;
   }
   return best;
 }
 
-void SurfaceProjector::project(std::span<const Point> points, std::span<const Uv> seeds, std::span<SurfaceFoot> feet, const RunContext& context) const {
+void SurfaceProjector::project(std::span<const Point> points, std::span<const Uv> seeds, std::span<SurfaceProjection> projections,
+                               const RunContext& context) const {
   parallel_for(
-      context, points.size(), [&](std::size_t i) { feet[i] = seeds.empty() ? nearest(points[i]) : seeded(points[i], seeds[i]); }, 512);
+      context, points.size(), [&](std::size_t i) { projections[i] = seeds.empty() ? nearest(points[i]) : seeded(points[i], seeds[i]); }, 512);
 }
 
 // ---------------------------------------------------------------- curves
@@ -395,7 +396,7 @@ CurveProjector::CurveProjector(CurvePtr curve, Interval range) : curve_(std::mov
   }
 }
 
-CurveFoot CurveProjector::seeded(const Point& p, double seed) const {
+CurveProjection CurveProjector::seeded(const Point& p, double seed) const {
   double t = inside(seed, range_, wraps_);
   CurveDerivatives d = curve_->derivatives(t);
   for (int step = 0; step < k_max_steps; ++step) {
@@ -430,7 +431,7 @@ CurveFoot CurveProjector::seeded(const Point& p, double seed) const {
   return {t, d.point, distance(d.point, p)};
 }
 
-CurveFoot CurveProjector::nearest(const Point& p) const {
+CurveProjection CurveProjector::nearest(const Point& p) const {
   struct Candidate {
     double bound;
     std::size_t interval;
@@ -439,12 +440,12 @@ CurveFoot CurveProjector::nearest(const Point& p) const {
   for (std::size_t i = 0; i < reach_.size(); ++i) candidates.push_back({distance(0.5 * (points_[i] + points_[i + 1]), p) - reach_[i], i});
   std::sort(candidates.begin(), candidates.end(),
             [](const Candidate& a, const Candidate& b) { return std::tie(a.bound, a.interval) < std::tie(b.bound, b.interval); });
-  CurveFoot best;
+  CurveProjection best;
   best.distance = std::numeric_limits<double>::infinity();
   for (const Candidate& candidate : candidates) {
     if (candidate.bound >= best.distance) break;
-    const CurveFoot foot = seeded(p, 0.5 * (stations_[candidate.interval] + stations_[candidate.interval + 1]));
-    if (foot.distance < best.distance) best = foot;
+    const CurveProjection projection = seeded(p, 0.5 * (stations_[candidate.interval] + stations_[candidate.interval + 1]));
+    if (projection.distance < best.distance) best = projection;
   }
   return best;
 }

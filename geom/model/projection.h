@@ -11,7 +11,7 @@
 
 namespace sterna {
 
-struct SurfaceFoot {
+struct SurfaceProjection {
   Uv at;
   Point point;            ///< on the surface
   double distance = 0.0;  ///< metres
@@ -27,13 +27,13 @@ class SurfaceProjector {
 
   /// Finds the local minimum of the distance reached from `seed` (moved into the box). The result is never farther away than the seed's point. Base points on
   /// the border are found; at poles all directions are tried. Points are accurate to about 1e-12 of the surface's extent.
-  SurfaceFoot seeded(const Point& p, Uv seed) const;
+  SurfaceProjection seeded(const Point& p, Uv seed) const;
   /// Finds the nearest point by testing every cell of samples that could contain a nearer point. The bound of a cell is that of its samples plus a margin, so a
   /// feature much thinner than a cell may be missed.
-  SurfaceFoot nearest(const Point& p) const;
-  /// Computes feet[i] = seeded(points[i], seeds[i]), or nearest(points[i]) if `seeds` is empty. Parallel.
+  SurfaceProjection nearest(const Point& p) const;
+  /// Computes projections[i] = seeded(points[i], seeds[i]), or nearest(points[i]) if `seeds` is empty. Parallel.
   /// \pre equal sizes
-  void project(std::span<const Point> points, std::span<const Uv> seeds, std::span<SurfaceFoot> feet, const RunContext& context) const;
+  void project(std::span<const Point> points, std::span<const Uv> seeds, std::span<SurfaceProjection> projections, const RunContext& context) const;
 
   const SurfacePtr& surface() const { return surface_; }
   const ParameterBox& box() const { return box_; }
@@ -41,8 +41,8 @@ class SurfaceProjector {
   double extent() const { return extent_; }
 
  private:
-  SurfaceFoot descend(const Point& p, Uv start) const;
-  SurfaceFoot leave_pole(const Point& p, const SurfaceFoot& foot) const;
+  SurfaceProjection descend(const Point& p, Uv start) const;
+  SurfaceProjection leave_pole(const Point& p, const SurfaceProjection& projection) const;
   void move_inside(Uv& at) const;
 
   SurfacePtr surface_;
@@ -54,7 +54,7 @@ class SurfaceProjector {
   BoxTree cells_;
 };
 
-struct CurveFoot {
+struct CurveProjection {
   double t = 0.0;
   Point point;
   double distance = 0.0;
@@ -66,8 +66,8 @@ class CurveProjector {
   explicit CurveProjector(CurvePtr curve);
   /// \throws Error(bad_argument) for a range of zero length
   CurveProjector(CurvePtr curve, Interval range);
-  CurveFoot seeded(const Point& p, double seed) const;
-  CurveFoot nearest(const Point& p) const;
+  CurveProjection seeded(const Point& p, double seed) const;
+  CurveProjection nearest(const Point& p) const;
 
  private:
   CurvePtr curve_;

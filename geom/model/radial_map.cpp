@@ -18,7 +18,7 @@ constexpr std::string_view k_radial_map_attempt = "spreading displacements over 
 /// Largest number of points. The system is dense: 6000 points take 0.3 GB and about one minute.
 constexpr std::size_t k_max_points = 6000;
 /// Points closer than this fraction of the points' extent are one point.
-constexpr double k_same_place = 1e-9;
+constexpr double k_same_location = 1e-9;
 /// Tolerance between displacements of repeated points, and of the solution at its points, as a fraction of the largest displacement.
 constexpr double k_same_shift = 1e-6;
 /// The points do not span a direction in which they extend by less than this fraction of their largest extent.
@@ -26,11 +26,11 @@ constexpr double k_flat = 1e-6;
 /// Scaled distance below which the logarithm of the second derivative of a thin plate is cut off.
 constexpr double k_core = 1e-9;
 
-[[noreturn]] void refuse_map(std::string problem, std::vector<ErrorPlace> places = {}, std::string hint = {}) {
+[[noreturn]] void refuse_map(std::string problem, std::vector<ErrorLocation> locations = {}, std::string hint = {}) {
   throw Error({.code = ErrorCode::bad_argument,
                .attempted = std::string(k_radial_map_attempt),
                .problem = std::move(problem),
-               .places = std::move(places),
+               .locations = std::move(locations),
                .hint = std::move(hint)});
 }
 
@@ -117,7 +117,7 @@ RadialMap::RadialMap(const ScatteredDisplacements& data, const RadialMapOptions&
   origin_ = 0.5 * (low + high);
   const double diagonal = distance(low, high);
   scale_ = diagonal > 0.0 ? diagonal : 1.0;
-  const ScatteredDisplacements unique = merged(data, k_same_place * scale_, k_same_shift * largest);
+  const ScatteredDisplacements unique = merged(data, k_same_location * scale_, k_same_shift * largest);
   const std::size_t n = unique.at.size();
   if (n > k_max_points)
     refuse_map(std::to_string(n) + " points, at most " + std::to_string(k_max_points) + " can be solved", {},

@@ -21,11 +21,11 @@ constexpr std::array<double, 2> k_between = {0.31, 0.5};
 /// Allowed gap of seams, relative to the tolerance.
 constexpr double k_seam = 0.1;
 
-[[noreturn]] void refuse_sampling(std::string problem, std::vector<ErrorPlace> places = {}, std::string hint = {}) {
+[[noreturn]] void refuse_sampling(std::string problem, std::vector<ErrorLocation> locations = {}, std::string hint = {}) {
   throw Error({.code = ErrorCode::bad_argument,
                .attempted = "sampling a function to a spline",
                .problem = std::move(problem),
-               .places = std::move(places),
+               .locations = std::move(locations),
                .hint = std::move(hint)});
 }
 
@@ -80,12 +80,12 @@ class Function {
  public:
   explicit Function(const std::function<Point(Uv)>& f) : f_(f) {}
   const Point& operator()(Uv at) {
-    const auto [place, is_new] = values_.try_emplace(std::array{at.u, at.v});
+    const auto [location, is_new] = values_.try_emplace(std::array{at.u, at.v});
     if (is_new) {
-      place->second = f_(at);
-      if (!is_finite(place->second)) refuse_sampling("the function returns numbers that are not finite at " + text_of(at));
+      location->second = f_(at);
+      if (!is_finite(location->second)) refuse_sampling("the function returns numbers that are not finite at " + text_of(at));
     }
-    return place->second;
+    return location->second;
   }
 
  private:
@@ -98,10 +98,11 @@ void check_options(const SamplingOptions& o) {
   if (o.max_intervals < k_first_intervals) refuse_sampling("max_intervals is " + std::to_string(o.max_intervals) + ", must be 4 or more");
 }
 
-[[noreturn]] void fail_to_reach(double error, double tolerance, int max_intervals, const Point& place, const std::string& where) {
+[[noreturn]] void fail_to_reach(double error, double tolerance, int max_intervals, const Point& location, const std::string& where) {
   refuse_sampling("the error is still " + number_text(error) + " m with " + std::to_string(max_intervals) + " intervals along a direction, the tolerance is " +
                       number_text(tolerance) + " m",
-                  {{place, where}}, "if the function has a kink or a step there, give its parameter in breaks; or allow a larger tolerance or more intervals");
+                  {{location, where}},
+                  "if the function has a kink or a step there, give its parameter in breaks; or allow a larger tolerance or more intervals");
 }
 
 struct Worst {

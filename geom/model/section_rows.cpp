@@ -18,8 +18,8 @@ constexpr std::size_t k_length_samples = 2000;
 /// A frame is a point if its size is below this fraction of a metre, or of its distance from the origin.
 constexpr double k_point_size = 1e-9;
 
-[[noreturn]] void refuse_section(ErrorCode code, const std::string& problem, std::vector<ErrorPlace> places = {}) {
-  throw Error({.code = code, .attempted = "making a cross section", .problem = problem, .places = std::move(places)});
+[[noreturn]] void refuse_section(ErrorCode code, const std::string& problem, std::vector<ErrorLocation> locations = {}) {
+  throw Error({.code = code, .attempted = "making a cross section", .problem = problem, .locations = std::move(locations)});
 }
 
 /// Returns points of a curve between two parameters at fractions of the length.
@@ -34,11 +34,11 @@ std::vector<Point> at_fractions(const std::function<Point(double)>& curve, doubl
   }
   std::vector<Point> points;
   for (const double fraction : fractions) {
-    const double wanted = fraction * length.back();
-    const auto above = std::upper_bound(length.begin() + 1, length.end() - 1, wanted);
+    const double target = fraction * length.back();
+    const auto above = std::upper_bound(length.begin() + 1, length.end() - 1, target);
     const auto i = static_cast<std::size_t>(above - length.begin());
     const double step = length[i] - length[i - 1];
-    const double part = (static_cast<double>(i - 1) + (step > 0.0 ? (wanted - length[i - 1]) / step : 0.0)) / k_length_samples;
+    const double part = (static_cast<double>(i - 1) + (step > 0.0 ? (target - length[i - 1]) / step : 0.0)) / k_length_samples;
     points.push_back(curve(parameter(std::clamp(part, 0.0, 1.0))));
   }
   return points;
@@ -157,9 +157,9 @@ std::vector<Point> section_loop(const WingSection& section, const std::optional<
     if (points.empty() && !section.naca.empty()) points = naca_airfoil(section.naca).points;
     if (points.size() < 5)
       refuse_section(ErrorCode::bad_argument, "section '" + section.name + "' has " + std::to_string(points.size()) + " airfoil points; at least 5 are needed");
-    const Transform place = transform_of({section.leading_edge, {section.dihedral, section.twist, section.yaw}});
+    const Transform location = transform_of({section.leading_edge, {section.dihedral, section.twist, section.yaw}});
     const double up = section.is_reversed ? -section.chord : section.chord;
-    for (const Uv p : points) loop.push_back(place.point({section.chord * p.u, 0.0, up * p.v}));
+    for (const Uv p : points) loop.push_back(location.point({section.chord * p.u, 0.0, up * p.v}));
     if (section.is_reversed) std::reverse(loop.begin(), loop.end());
   }
   if (!trailing_edge) return loop;
@@ -257,8 +257,8 @@ bool WingRows::is_sampled_between(std::size_t first_row, std::size_t last_row) c
   return true;
 }
 
-double WingPanel::v(double place) const {
-  const double local = place - static_cast<double>(first_row), whole = std::floor(local);
+double WingPanel::v(double location) const {
+  const double local = location - static_cast<double>(first_row), whole = std::floor(local);
   const auto i = static_cast<std::size_t>(whole);
   return local == whole ? v_of_row[i] : v_of_row[i] + (local - whole) * (v_of_row[i + 1] - v_of_row[i]);
 }
@@ -317,18 +317,18 @@ std::vector<Point> frame_row(const BodyFrame& frame, std::size_t m) {
   if (!(frame.width > 0.0 && frame.height > 0.0))
     refuse_section(ErrorCode::bad_argument, "frame '" + frame.name + "' is " + std::to_string(frame.width) + " m wide and " + std::to_string(frame.height) +
                                                 " m high; both must be positive");
-  const auto place = [&](Uv p) { return frame.center + Vec3{0.0, 0.5 * frame.width * p.u, 0.5 * frame.height * p.v}; };
+  const auto location = [&](Uv p) { return frame.center + Vec3{0.0, 0.5 * frame.width * p.u, 0.5 * frame.height * p.v}; };
   if (frame.shape == FrameShape::points) {
     std::vector<Point> loop;
-    for (const Uv p : frame.points) loop.push_back(place(p));
+    for (const Uv p : frame.points) loop.push_back(location(p));
     const std::size_t top = loop.size() - 1;
     for (std::size_t i = top; i-- > 0;)
-      if (i > 0 || frame.points[0].u != 0.0) loop.push_back(place({-frame.points[i].u, frame.points[i].v}));
+      if (i > 0 || frame.points[0].u != 0.0) loop.push_back(location({-frame.points[i].u, frame.points[i].v}));
     return halves_of(loop, top, m);
   }
   const std::function<Uv(double)> shape = shape_of(frame);
   const std::vector<double> fractions = even_fractions(m);
-  std::vector<Point> right = at_fractions([&](double a) { return place(shape(a)); }, 0.0, std::numbers::pi, fractions);
+  std::vector<Point> right = at_fractions([&](double a) { return location(shape(a)); }, 0.0, std::numbers::pi, fractions);
   right.front().y = right.back().y = frame.center.y;
   std::vector<Point> left;
   for (std::size_t i = right.size(); i-- > 0;) left.push_back({right[i].x, 2.0 * frame.center.y - right[i].y, right[i].z});

@@ -62,7 +62,7 @@ struct WingPanel {
   std::size_t first_row = 0;
   std::vector<double> v_of_row;  ///< v of first_row and the rows that follow
   /// Returns v of a location counted in rows from tip to tip: 2.5 is half way between rows 2 and 3.
-  double v(double place) const;
+  double v(double location) const;
 };
 WingPanel wing_panel(const std::vector<std::vector<Point>>& rows, std::size_t first_row, std::size_t last_row, bool is_sampled);
 /// Returns one panel for each part between breaks, in order.

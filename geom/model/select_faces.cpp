@@ -13,9 +13,9 @@ Model select_faces(const Model& model, const std::function<bool(FaceId)>& is_cho
   std::map<std::uint64_t, EdgeId> edges;
   std::map<std::uint64_t, FaceId> faces;
   const auto corner = [&](CornerId id) {
-    const auto [place, is_new] = corners.try_emplace(id.value());
-    if (is_new) place->second = result.corners.push_back(model.corners[id]);
-    return place->second;
+    const auto [location, is_new] = corners.try_emplace(id.value());
+    if (is_new) location->second = result.corners.push_back(model.corners[id]);
+    return location->second;
   };
   for (const FaceId f : model.faces.ids()) {
     if (!is_chosen(f)) continue;

@@ -19,7 +19,7 @@ namespace {
 std::string segment_name(const std::string& surface, std::size_t i) { return surface + "Segment" + std::to_string(i); }
 
 /// Deflection requested for one surface: by a setting that names it, or by controls.
-struct Asked {
+struct Request {
   const ControlSetting* setting = nullptr;
   double angle = 0.0;
   bool is_by_control = false;
@@ -31,7 +31,7 @@ class ControlSetter {
 
   Aircraft set(const std::vector<ControlSetting>& settings) {
     split_segments(settings);
-    for (const ControlSetting& setting : settings) ask(setting);
+    for (const ControlSetting& setting : settings) request(setting);
     join_segments();
     for (const Wing& wing : result_.wings) turn(wing);
     return std::move(result_);
@@ -72,25 +72,25 @@ class ControlSetter {
     result_.control_surfaces = std::move(surfaces);
   }
 
-  void ask(const ControlSetting& setting) {
-    if (is_surface(setting.names)) return ask_one(setting.names, setting);
-    if (const Control* control = control_of(setting.names)) return ask_by(*control, setting);
+  void request(const ControlSetting& setting) {
+    if (is_surface(setting.names)) return request_one(setting.names, setting);
+    if (const Control* control = control_of(setting.names)) return request_by(*control, setting);
     bool is_found = false;
     for (const ControlSurface& surface : result_.control_surfaces)
       if (matches_glob(surface.name, setting.names)) {
-        ask_one(surface.name, setting);
+        request_one(surface.name, setting);
         is_found = true;
       }
     if (!is_found) refuse_unknown(setting.names);
   }
 
-  void ask_one(const std::string& surface, const ControlSetting& setting) {
-    const auto [at, is_new] = asked_.insert({surface, {&setting, setting.angle, false}});
+  void request_one(const std::string& surface, const ControlSetting& setting) {
+    const auto [at, is_new] = requested_.insert({surface, {&setting, setting.angle, false}});
     if (!is_new)
       refuse_setting(setting.names, "surface \"" + surface + "\" is already set by \"" + at->second.setting->names + "\"", "give each surface one angle");
   }
 
-  void ask_by(const Control& control, const ControlSetting& setting) {
+  void request_by(const Control& control, const ControlSetting& setting) {
     for (const ControlParticipation& p : control.participations) {
       std::string name = p.segment;
       if (!is_surface(name))  // the only segment of a surface may be called by the name of the surface or of the segment
@@ -98,7 +98,7 @@ class ControlSetter {
           if (segment_name(surface.name, 0) == p.segment && surface.hinge.size() == 2) name = surface.name;
       if (!is_surface(name))
         refuse_setting(setting.names, "this control moves \"" + p.segment + "\", which is not a control surface", "give the names of control surfaces");
-      const auto [at, is_new] = asked_.insert({name, {&setting, p.factor * setting.angle, true}});
+      const auto [at, is_new] = requested_.insert({name, {&setting, p.factor * setting.angle, true}});
       if (is_new) continue;
       if (!at->second.is_by_control)
         refuse_setting(setting.names, "surface \"" + name + "\" is already set by \"" + at->second.setting->names + "\"", "give each surface one angle");
@@ -123,26 +123,26 @@ class ControlSetter {
     std::vector<ControlSurface> joined;
     std::map<std::string, std::string> renamed;  // the first segment of a row that is the whole surface
     for (const ControlSurface& surface : result_.control_surfaces) {
-      const auto asked = asked_.find(surface.name), before = joined.empty() ? asked_.end() : asked_.find(joined.back().name);
+      const auto requested = requested_.find(surface.name), before = joined.empty() ? requested_.end() : requested_.find(joined.back().name);
       const auto segment = segments_.find(surface.name), other = joined.empty() ? segments_.end() : segments_.find(joined.back().name);
-      const bool are_alike = asked == asked_.end() ? before == asked_.end()
-                                                   : before != asked_.end() && asked->second.angle == before->second.angle &&
-                                                         asked->second.setting->gap == before->second.setting->gap &&
-                                                         asked->second.setting->fairing == before->second.setting->fairing;
+      const bool are_alike = requested == requested_.end() ? before == requested_.end()
+                                                           : before != requested_.end() && requested->second.angle == before->second.angle &&
+                                                                 requested->second.setting->gap == before->second.setting->gap &&
+                                                                 requested->second.setting->fairing == before->second.setting->fairing;
       if (segment == segments_.end() || other == segments_.end() || segment->second.first != other->second.first || !are_alike) {
         joined.push_back(surface);
         continue;
       }
       joined.back().hinge.push_back(surface.hinge.back());
-      asked_.erase(surface.name);
+      requested_.erase(surface.name);
       if (joined.back().hinge.size() == segment->second.second + 1) renamed[joined.back().name] = segment->second.first;
     }
     for (ControlSurface& surface : joined) {
       const auto name = renamed.find(surface.name);
       if (name == renamed.end()) continue;
-      if (auto asked = asked_.extract(surface.name)) {
-        asked.key() = name->second;
-        asked_.insert(std::move(asked));
+      if (auto requested = requested_.extract(surface.name)) {
+        requested.key() = name->second;
+        requested_.insert(std::move(requested));
       }
       surface.name = name->second;
     }
@@ -153,7 +153,7 @@ class ControlSetter {
   void turn(const Wing& wing) {
     std::vector<Deflection> all;
     std::erase_if(result_.deflections, [&](const Deflection& d) {
-      if (d.surface.wing != wing.name || asked_.contains(d.surface.name)) return d.surface.wing == wing.name;
+      if (d.surface.wing != wing.name || requested_.contains(d.surface.name)) return d.surface.wing == wing.name;
       all.push_back(d);
       return true;
     });
@@ -161,10 +161,10 @@ class ControlSetter {
     for (const ControlSurface& surface : result_.control_surfaces) {
       if (surface.wing != wing.name || std::ranges::any_of(all, [&](const Deflection& d) { return d.surface.name == surface.name; })) continue;
       Deflection d{.surface = surface};
-      if (const auto asked = asked_.find(surface.name); asked != asked_.end()) {
+      if (const auto requested = requested_.find(surface.name); requested != requested_.end()) {
         is_turned = true;
-        const ControlSetting& setting = *asked->second.setting;
-        d.angle = asked->second.angle;
+        const ControlSetting& setting = *requested->second.setting;
+        d.angle = requested->second.angle;
         d.fairing = setting.fairing;
         d.gap = setting.gap;
         d.other_side = surface.has_image ? setting.other_side : OtherSide::none;
@@ -177,7 +177,7 @@ class ControlSetter {
   }
 
   Aircraft result_;
-  std::map<std::string, Asked> asked_;                                   ///< by surface
+  std::map<std::string, Request> requested_;                             ///< by surface
   std::map<std::string, std::pair<std::string, std::size_t>> segments_;  ///< surface of a segment, and how many it has
 };
 

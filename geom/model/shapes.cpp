@@ -212,19 +212,19 @@ class BodyOutline {
   double length() const { return body_.frames.back().center.x - front(); }
   /// Returns the distance of the surface from z = 0 towards the side, at a lateral distance from the frames' middle; nothing if the body is narrower.
   std::optional<double> height(double x, double across = 0.0) const {
-    const auto [i, t] = place(x);
+    const auto [i, t] = location(x);
     const BodyFrame &a = body_.frames[i], &b = body_.frames[i + 1];
     const double half_height = 0.5 * ((1.0 - t) * a.height + t * b.height), half_width = 0.5 * ((1.0 - t) * a.width + t * b.width);
     if (!(std::abs(across) < half_width)) return std::nullopt;
     return side_ * ((1.0 - t) * a.center.z + t * b.center.z) + half_height * std::sqrt(1.0 - (across / half_width) * (across / half_width));
   }
   double half_height(double x) const {
-    const auto [i, t] = place(x);
+    const auto [i, t] = location(x);
     return 0.5 * ((1.0 - t) * body_.frames[i].height + t * body_.frames[i + 1].height);
   }
 
  private:
-  std::pair<std::size_t, double> place(double x) const {
+  std::pair<std::size_t, double> location(double x) const {
     std::size_t i = 0;
     while (i + 2 < body_.frames.size() && x > body_.frames[i + 1].center.x) ++i;
     const double from = body_.frames[i].center.x, to = body_.frames[i + 1].center.x;

@@ -20,7 +20,7 @@ std::vector<SideGraph::Loop> SideGraph::loops() const {
   const auto angle = [&](std::size_t h) { return std::atan2(to(h).v - from(h).v, to(h).u - from(h).u); };
   std::map<std::pair<double, double>, std::vector<std::size_t>> leaving;
   for (std::size_t h = 0; h < 2 * lines_.size(); ++h) leaving[{from(h).u, from(h).v}].push_back(h);
-  for (auto& [place, around] : leaving) std::sort(around.begin(), around.end(), [&](std::size_t a, std::size_t b) { return angle(a) < angle(b); });
+  for (auto& [location, around] : leaving) std::sort(around.begin(), around.end(), [&](std::size_t a, std::size_t b) { return angle(a) < angle(b); });
   const auto next = [&](std::size_t h) {  // the first half-edge clockwise from the previous one
     const std::vector<std::size_t>& around = leaving.at({to(h).u, to(h).v});
     const auto back = std::find(around.begin(), around.end(), h ^ 1u);

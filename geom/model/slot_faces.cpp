@@ -57,13 +57,13 @@ void unify(NurbsCurveForm<Point>& a, NurbsCurveForm<Point>& b) {
 
 using Side = ModelBuilder::Side;
 
-/// Returns sides along a split curve, from its start to its end or back; `place` gives (u, v) of its parameter.
-template <class Place>
-void add_sides(std::vector<Side>& sides, const SplitCurve& split, bool is_forward, const Place& place) {
+/// Returns sides along a split curve, from its start to its end or back; `location` gives (u, v) of its parameter.
+template <class Location>
+void add_sides(std::vector<Side>& sides, const SplitCurve& split, bool is_forward, const Location& location) {
   const std::size_t n = split.edges.size();
   for (std::size_t k = 0; k < n; ++k) {
     const std::size_t i = is_forward ? k : n - 1 - k;
-    sides.push_back({split.edges[i], place(split.at[is_forward ? i : i + 1]), place(split.at[is_forward ? i + 1 : i])});
+    sides.push_back({split.edges[i], location(split.at[is_forward ? i : i + 1]), location(split.at[is_forward ? i + 1 : i])});
   }
 }
 
@@ -132,11 +132,11 @@ SurfacePtr ruled(NurbsCurveForm<Point> a, NurbsCurveForm<Point> b) {
 
 void ruled_wall(ModelBuilder& builder, const SplitCurve& upper, const SplitCurve& lower, EdgeId start, EdgeId end, FaceRole role, const std::string& name) {
   const auto range = [](const SplitCurve& split) { return Interval{split.at.front(), split.at.back()}; };
-  const auto place = [&](const SplitCurve& split, double v) { return [r = range(split), v](double t) { return Uv{(t - r.from) / r.length(), v}; }; };
+  const auto location = [&](const SplitCurve& split, double v) { return [r = range(split), v](double t) { return Uv{(t - r.from) / r.length(), v}; }; };
   std::vector<Side> sides;
-  add_sides(sides, upper, true, place(upper, 0.0));
+  add_sides(sides, upper, true, location(upper, 0.0));
   sides.push_back({end, {1.0, 0.0}, {1.0, 1.0}});
-  add_sides(sides, lower, false, place(lower, 1.0));
+  add_sides(sides, lower, false, location(lower, 1.0));
   sides.push_back({start, {0.0, 1.0}, {0.0, 0.0}});
   builder.face(ruled(unit_form(upper.curve, range(upper)), unit_form(lower.curve, range(lower))), sides, role, name);
 }

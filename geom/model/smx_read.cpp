@@ -62,7 +62,7 @@ double SmxReader::positive(const Node& node, const char* attribute) const {
 void SmxReader::drop_repeated(const Node& node, std::vector<Uv>& points) {
   const std::size_t n = points.size();
   points.erase(std::unique(points.begin(), points.end(), [](Uv a, Uv b) { return std::hypot(a.u - b.u, a.v - b.v) <= k_same_smx_point; }), points.end());
-  if (points.size() != n) file_.tell(node, std::to_string(n - points.size()) + " repeated points were dropped");
+  if (points.size() != n) file_.report(node, std::to_string(n - points.size()) + " repeated points were dropped");
 }
 
 void SmxReader::check_turns(const Node& node, const std::vector<Uv>& points) const {
@@ -167,23 +167,23 @@ Body SmxReader::body(const Node& node) {
   body.tangents = file_.boolean(node, "akimatg", false) ? BodyTangents::akima : BodyTangents::bessel;
   for (const Node child : node.children("BodyFrame")) body.frames.push_back(frame(child));
   if (body.frames.size() < 2) file_.fail(node, "a body needs 2 frames; it has " + std::to_string(body.frames.size()));
-  if (body.frames.size() < 4) file_.tell(node, "sumo requires 4 frames; the body has " + std::to_string(body.frames.size()));
+  if (body.frames.size() < 4) file_.report(node, "sumo requires 4 frames; the body has " + std::to_string(body.frames.size()));
   const auto is_before = [](const BodyFrame& a, const BodyFrame& b) { return a.center.x < b.center.x; };
   if (!std::is_sorted(body.frames.begin(), body.frames.end(), is_before)) {
     std::stable_sort(body.frames.begin(), body.frames.end(), is_before);
-    file_.tell(node, "the frames were sorted by x");
+    file_.report(node, "the frames were sorted by x");
   }
   for (std::size_t i = 1; i < body.frames.size(); ++i)
     if (body.frames[i].center.x == body.frames[i - 1].center.x)
-      file_.tell(node, "frames '" + body.frames[i - 1].name + "' and '" + body.frames[i].name +
-                           "' are in the same plane x = " + exact_text(body.frames[i].center.x) + "; no surface can be made through both");
+      file_.report(node, "frames '" + body.frames[i - 1].name + "' and '" + body.frames[i].name +
+                             "' are in the same plane x = " + exact_text(body.frames[i].center.x) + "; no surface can be made through both");
   if (const Node lip = node.child("NacelleInletLip")) {
     file_.warn_unknown(lip, "axialOffset radialOffset shapeCoef", "");
     body.lip = InletLip{file_.number(lip, "axialOffset", 0.4), file_.number(lip, "radialOffset", 0.2), file_.number(lip, "shapeCoef", 1.0)};
   }
   read_caps(node, body.nose, body.tail);
   if (body.lip && body.nose.height != 0.0) {
-    file_.tell(node, "the body has an inlet lip, so its front cap is flat");
+    file_.report(node, "the body has an inlet lip, so its front cap is flat");
     body.nose.height = 0.0;
   }
   body.criterion = criterion(node);
@@ -240,10 +240,10 @@ WingSection SmxReader::section(const Node& node) {
   if (!s.points.empty() && s.points.size() < 5) file_.fail(node, "an airfoil needs 5 points; it has " + std::to_string(s.points.size()));
   check_turns(node, s.points);
   if (s.n_approximation > 0)
-    file_.tell(node,
-               "the airfoil goes through its points; sumo approximates it by least squares with " + std::to_string(s.n_approximation) + " points (napprox)");
+    file_.report(node,
+                 "the airfoil goes through its points; sumo approximates it by least squares with " + std::to_string(s.n_approximation) + " points (napprox)");
   if (s.extend_leading_x || s.extend_leading_y || s.extend_trailing_x || s.extend_trailing_y)
-    file_.tell(node, "the airfoil is not extended at its ends (extend_xle ...): sumo's rule is not documented");
+    file_.report(node, "the airfoil is not extended at its ends (extend_xle ...): sumo's rule is not documented");
   return s;
 }
 
@@ -261,14 +261,14 @@ Wing SmxReader::wing(const Node& node) {
     if (flag == "autosym") wing.is_symmetric = true;
     else if (flag == "detectwinglet") wing.has_winglet = true;
     else if (flag == "cubic") wing.is_cubic = true;
-    else if (!flag.empty()) file_.tell(node, "flag '" + flag + "' is not known and was left out");
+    else if (!flag.empty()) file_.report(node, "flag '" + flag + "' is not known and was left out");
     at = end + 1;
   }
   for (const Node child : node.children("WingSection")) wing.sections.push_back(section(child));
   if (wing.sections.size() < 2) file_.fail(node, "a wing needs 2 sections; it has " + std::to_string(wing.sections.size()));
   if (wing.is_symmetric) {
     WingSection& center = wing.sections.back();
-    if (center.leading_edge.y != 0.0 || center.dihedral != 0.0) file_.tell(node, "the last section of a symmetric wing was put into the plane of symmetry");
+    if (center.leading_edge.y != 0.0 || center.dihedral != 0.0) file_.report(node, "the last section of a symmetric wing was put into the plane of symmetry");
     center.leading_edge.y = 0.0;
     center.dihedral = 0.0;
   } else {
@@ -327,7 +327,7 @@ std::optional<MeshCriterion> SmxReader::criterion(const Node& parent) {
   c.kinks = list("Kinks");
   const std::vector<double> tangents = list("KinkTangents");
   if (c.scale.size() != c.breaks.size() || tangents.size() != 3 * c.kinks.size()) {
-    file_.tell(node, "lists of scales, breaks and kinks whose lengths differ were left out; they follow from the sections");
+    file_.report(node, "lists of scales, breaks and kinks whose lengths differ were left out; they follow from the sections");
     c.scale.clear();
     c.breaks.clear();
     c.kinks.clear();
@@ -396,7 +396,7 @@ JetEngine SmxReader::engine(const Node& node) {
     for (const Node region : node.child(tag).children()) {
       if (region.type() != pugi::node_element) continue;
       if (std::string_view(region.name()) != "JeRegion") {
-        file_.tell(region, "this element is not known and was left out");
+        file_.report(region, "this element is not known and was left out");
         continue;
       }
       file_.warn_unknown(region, "surface type", "");
@@ -426,23 +426,23 @@ SumoSettings SmxReader::settings(const Node& node) {
 void SmxReader::resolve(const Aircraft& aircraft) {
   std::set<std::string> bodies, wings, segments;
   for (const Body& body : aircraft.bodies)
-    if (!bodies.insert(body.name).second) file_.tell(file_.root(), "two bodies are named '" + body.name + "'");
+    if (!bodies.insert(body.name).second) file_.report(file_.root(), "two bodies are named '" + body.name + "'");
   for (const Wing& wing : aircraft.wings)
-    if (!wings.insert(wing.name).second) file_.tell(file_.root(), "two wings are named '" + wing.name + "'");
+    if (!wings.insert(wing.name).second) file_.report(file_.root(), "two wings are named '" + wing.name + "'");
   for (std::size_t i = 0; i < aircraft.control_surfaces.size(); ++i) {
     const ControlSurface& surface = aircraft.control_surfaces[i];
-    if (!wings.contains(surface.wing)) file_.tell(control_nodes_[i], "there is no wing '" + surface.wing + "'");
+    if (!wings.contains(surface.wing)) file_.report(control_nodes_[i], "there is no wing '" + surface.wing + "'");
     if (surface.hinge.size() == 2) segments.insert(surface.name);
     for (std::size_t k = 0; k + 1 < surface.hinge.size(); ++k) segments.insert(surface.name + "Segment" + std::to_string(k));
   }
   for (const Control& control : aircraft.controls)
     for (const ControlParticipation& p : control.participations)
       if (!segments.contains(p.segment))
-        file_.tell(file_.root(), "control '" + control.name + "' moves '" + p.segment + "', which is not a segment of a control surface");
+        file_.report(file_.root(), "control '" + control.name + "' moves '" + p.segment + "', which is not a segment of a control surface");
   for (std::size_t i = 0; i < aircraft.engines.size(); ++i)
     for (const auto* regions : {&aircraft.engines[i].intakes, &aircraft.engines[i].nozzles})
       for (const EngineRegion& region : *regions)
-        if (!bodies.contains(region.body)) file_.tell(engine_nodes_[i], "there is no body '" + region.body + "'");
+        if (!bodies.contains(region.body)) file_.report(engine_nodes_[i], "there is no body '" + region.body + "'");
 }
 
 AircraftReading SmxReader::read() {

@@ -20,7 +20,7 @@ Point FunctionMap::point(const Point& p) const {
     throw Error({.code = ErrorCode::bad_argument,
                  .attempted = "deforming by a function",
                  .problem = "the function returns numbers that are not finite here",
-                 .places = {{p, "argument"}}});
+                 .locations = {{p, "argument"}}});
   return q;
 }
 

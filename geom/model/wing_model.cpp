@@ -49,7 +49,7 @@ bool is_planar(const std::vector<Point>& row) {
 
 /// Edges around the cut-out of a slot, collected while the sides are built.
 struct CutOut {
-  std::vector<double> places;                        ///< locations of the corners of the lips
+  std::vector<double> locations;                     ///< locations of the corners of the lips
   std::vector<EdgeId> upper, lower;                  ///< lips between the corners
   std::array<SplitCurve, 2> upper_ends, lower_ends;  ///< edges across the chord at the first and last location of the cut-out
   std::array<EdgeId, 2> thickness;                   ///< edges of a blunt trailing edge at these locations
@@ -67,17 +67,17 @@ class WingBuilder {
   Model build();
 
  private:
-  using Crossing = double WingPatch::Place::*;
+  using Crossing = double WingPatch::Location::*;
   void make_rows();
   void refuse_fold_back() const;
   void make_panels();
-  void make_part(const WingSides& panel, double from_place, double to_place, const Station& from, const Station& to);
-  void make_side(const WingSides& panel, Crossing side, double from_place, double to_place, const Station& from, const Station& to, const SplitCurve& leading,
-                 const SplitCurve& trailing);
-  Station station(const WingSides& panel, double place);
-  const WingPatch* patch_over(ControlKind kind, double from_place, double to_place) const;
-  std::vector<double> patch_ends(ControlKind kind, double from_place, double to_place) const;
-  const WingPatch* slot_at(ControlKind kind, double place) const;
+  void make_part(const WingSides& panel, double from_location, double to_location, const Station& from, const Station& to);
+  void make_side(const WingSides& panel, Crossing side, double from_location, double to_location, const Station& from, const Station& to,
+                 const SplitCurve& leading, const SplitCurve& trailing);
+  Station station(const WingSides& panel, double location);
+  const WingPatch* patch_over(ControlKind kind, double from_location, double to_location) const;
+  std::vector<double> patch_ends(ControlKind kind, double from_location, double to_location) const;
+  const WingPatch* slot_at(ControlKind kind, double location) const;
   void keep_ends(Crossing side, std::size_t patch, bool is_last, const SplitCurve& across);
   void make_cove(std::size_t patch);
   /// Returns the name of a control surface that covers the whole chord at an end, else that of the wing.
@@ -130,49 +130,49 @@ void WingBuilder::refuse_fold_back() const {
       throw Error({.code = ErrorCode::bad_argument,
                    .attempted = "making wing '" + wing_.name + "'",
                    .problem = "the wing folds back onto itself: the panels before and behind a section overlap",
-                   .places = {{map_.point(rows_[i - 1][k_side_points]), "leading edge of that section"}},
+                   .locations = {{map_.point(rows_[i - 1][k_side_points]), "leading edge of that section"}},
                    .hint = "give the sections in their order along the span"});
   }
 }
 
 /// Returns the patch of a kind that covers the whole of a range.
-const WingPatch* WingBuilder::patch_over(ControlKind kind, double from_place, double to_place) const {
+const WingPatch* WingBuilder::patch_over(ControlKind kind, double from_location, double to_location) const {
   for (const WingPatch& patch : wing_.patches)
-    if (patch.kind == kind && first_place(patch) <= from_place && last_place(patch) >= to_place) return &patch;
+    if (patch.kind == kind && first_location(patch) <= from_location && last_location(patch) >= to_location) return &patch;
   return nullptr;
 }
 
 /// Returns the ends of patches of a kind within a range, and those of the range itself.
-std::vector<double> WingBuilder::patch_ends(ControlKind kind, double from_place, double to_place) const {
-  std::vector<double> ends{from_place, to_place};
+std::vector<double> WingBuilder::patch_ends(ControlKind kind, double from_location, double to_location) const {
+  std::vector<double> ends{from_location, to_location};
   for (const WingPatch& patch : wing_.patches)
-    for (const double end : {first_place(patch), last_place(patch)})
-      if (patch.kind == kind && end > from_place && end < to_place) add_sorted(ends, end);
+    for (const double end : {first_location(patch), last_location(patch)})
+      if (patch.kind == kind && end > from_location && end < to_location) add_sorted(ends, end);
   return ends;
 }
 
 /// Returns the patch with an open slot whose cut-out contains a location, excluding its ends.
-const WingPatch* WingBuilder::slot_at(ControlKind kind, double place) const {
+const WingPatch* WingBuilder::slot_at(ControlKind kind, double location) const {
   for (const WingPatch& patch : wing_.patches)
-    if (patch.kind == kind && patch.slot && first_place(patch) < place && last_place(patch) > place) return &patch;
+    if (patch.kind == kind && patch.slot && first_location(patch) < location && last_location(patch) > location) return &patch;
   return nullptr;
 }
 
-Station WingBuilder::station(const WingSides& panel, double place) {
+Station WingBuilder::station(const WingSides& panel, double location) {
   std::vector<double> upper{0.0, 1.0}, lower{0.0, 1.0};
   for (const WingPatch& patch : wing_.patches)
-    if (patch.kind != ControlKind::all_moving && first_place(patch) <= place && last_place(patch) >= place) {
-      const WingPatch::Place crossing = crossing_at(patch.border, place);
+    if (patch.kind != ControlKind::all_moving && first_location(patch) <= location && last_location(patch) >= location) {
+      const WingPatch::Location crossing = crossing_at(patch.border, location);
       add_sorted(upper, crossing.upper);
       add_sorted(lower, crossing.lower);
     }
-  const WingPatch *flap = slot_at(ControlKind::trailing_edge, place), *slat = slot_at(ControlKind::leading_edge, place);
+  const WingPatch *flap = slot_at(ControlKind::trailing_edge, location), *slat = slot_at(ControlKind::leading_edge, location);
   const auto keep = [](std::vector<double>& at, double from, double to) { std::erase_if(at, [=](double u) { return u < from || u > to; }); };
-  const WingPatch::Place none{place, 0.0, 0.0}, all{place, 1.0, 1.0};
-  const WingPatch::Place from = flap ? crossing_at(flap->border, place) : none, to = slat ? crossing_at(slat->border, place) : all;
+  const WingPatch::Location none{location, 0.0, 0.0}, all{location, 1.0, 1.0};
+  const WingPatch::Location from = flap ? crossing_at(flap->border, location) : none, to = slat ? crossing_at(slat->border, location) : all;
   keep(upper, from.upper, to.upper);
   keep(lower, from.lower, to.lower);
-  const double v = panel.v(place);
+  const double v = panel.v(location);
   const CurvePtr upper_curve = line_of_constant_v(panel.upper, v), lower_curve = line_of_constant_v(panel.lower, v);
   const CornerId trailing = builder_.corner(upper_curve->point(upper.front())), leading = builder_.corner(upper_curve->point(upper.back()));
   const CornerId below = is_blunt_ || flap ? builder_.corner(lower_curve->point(lower.front())) : trailing,
@@ -185,54 +185,54 @@ void WingBuilder::keep_ends(Crossing side, std::size_t patch, bool is_last, cons
   const double lip = (is_last ? wing_.patches[patch].border.back() : wing_.patches[patch].border.front()).*side;
   const SplitCurve kept = wing_.patches[patch].kind == ControlKind::trailing_edge ? pieces(across, 0.0, lip) : pieces(across, lip, 1.0);
   CutOut& out = cut_outs_[patch];
-  (side == &WingPatch::Place::upper ? out.upper_ends : out.lower_ends)[is_last ? 1 : 0] = kept;
+  (side == &WingPatch::Location::upper ? out.upper_ends : out.lower_ends)[is_last ? 1 : 0] = kept;
 }
 
 /// Builds the faces of one side: the patches, and the remaining parts.
-void WingBuilder::make_side(const WingSides& panel, Crossing side, double from_place, double to_place, const Station& from, const Station& to,
+void WingBuilder::make_side(const WingSides& panel, Crossing side, double from_location, double to_location, const Station& from, const Station& to,
                             const SplitCurve& leading, const SplitCurve& trailing) {
-  const bool is_upper = side == &WingPatch::Place::upper;
+  const bool is_upper = side == &WingPatch::Location::upper;
   const NurbsSurfaceForm& form = is_upper ? panel.upper : panel.lower;
   const SurfacePtr& surface = is_upper ? panel.upper_surface : panel.lower_surface;
   const FaceRole role = is_upper ? FaceRole::upper : FaceRole::lower;
   std::map<std::pair<double, double>, CornerId> corners;
   SideGraph graph;
   const auto add = [&](const SplitCurve& split, bool is_across, double fixed, SideGraph::Mark left = {}, SideGraph::Mark right = {}) {
-    const auto place = [&](double t) { return is_across ? Uv{t, fixed} : Uv{fixed, t}; };
+    const auto location = [&](double t) { return is_across ? Uv{t, fixed} : Uv{fixed, t}; };
     for (std::size_t i = 0; i < split.edges.size(); ++i)
-      if (split.edges[i].is_valid()) graph.add(split.edges[i], place(split.at[i]), place(split.at[i + 1]), left, right);
+      if (split.edges[i].is_valid()) graph.add(split.edges[i], location(split.at[i]), location(split.at[i + 1]), left, right);
     for (std::size_t i = 0; i < split.at.size(); ++i)
-      if (split.corners[i].is_valid()) corners.emplace(std::pair(place(split.at[i]).u, place(split.at[i]).v), split.corners[i]);
+      if (split.corners[i].is_valid()) corners.emplace(std::pair(location(split.at[i]).u, location(split.at[i]).v), split.corners[i]);
   };
   const auto corner = [&](Uv at) {
     const auto [found, is_new] = corners.emplace(std::pair(at.u, at.v), CornerId());
     if (is_new) found->second = builder_.corner(surface->point(at));
     return found->second;
   };
-  const auto beside_slots = [&](const Station& station, double place) {  // a cut-out that begins at the station takes part of its edge
+  const auto beside_slots = [&](const Station& station, double location) {  // a cut-out that begins at the station takes part of its edge
     const SplitCurve& split = is_upper ? station.upper : station.lower;
     double low = 0.0, high = 1.0;
     for (std::size_t k = 0; k < wing_.patches.size(); ++k) {
       const WingPatch& patch = wing_.patches[k];
-      if (!patch.slot || patch.kind == ControlKind::all_moving || first_place(patch) >= to_place || last_place(patch) <= from_place ||
-          place < first_place(patch) || place > last_place(patch))
+      if (!patch.slot || patch.kind == ControlKind::all_moving || first_location(patch) >= to_location || last_location(patch) <= from_location ||
+          location < first_location(patch) || location > last_location(patch))
         continue;
-      (patch.kind == ControlKind::trailing_edge ? low : high) = crossing_at(patch.border, place).*side;
-      if (place == first_place(patch) || place == last_place(patch)) keep_ends(side, k, place == last_place(patch), split);
+      (patch.kind == ControlKind::trailing_edge ? low : high) = crossing_at(patch.border, location).*side;
+      if (location == first_location(patch) || location == last_location(patch)) keep_ends(side, k, location == last_location(patch), split);
     }
     return pieces(split, low, high);
   };
-  add(beside_slots(from, from_place), true, panel.v(from_place));
+  add(beside_slots(from, from_location), true, panel.v(from_location));
   add(leading, false, 1.0);
-  add(beside_slots(to, to_place), true, panel.v(to_place));
+  add(beside_slots(to, to_location), true, panel.v(to_location));
   add(trailing, false, 0.0);
   for (const ControlKind kind : {ControlKind::trailing_edge, ControlKind::leading_edge}) {
-    for (const double end : patch_ends(kind, from_place, to_place)) {  // sides of the patches, across the span
-      if (end == from_place || end == to_place) continue;
+    for (const double end : patch_ends(kind, from_location, to_location)) {  // sides of the patches, across the span
+      if (end == from_location || end == to_location) continue;
       const double edge_u = kind == ControlKind::trailing_edge ? 0.0 : 1.0;
       std::vector<double> at{edge_u};
       for (const WingPatch& patch : wing_.patches)
-        if (patch.kind == kind && first_place(patch) <= end && last_place(patch) >= end) add_sorted(at, crossing_at(patch.border, end).*side);
+        if (patch.kind == kind && first_location(patch) <= end && last_location(patch) >= end) add_sorted(at, crossing_at(patch.border, end).*side);
       if (at.size() == 1) continue;  // the border ends at the edge itself
       const double v = panel.v(end);
       SplitCurve across{line_of_constant_v(form, v), at, {}, {}};
@@ -241,30 +241,31 @@ void WingBuilder::make_side(const WingSides& panel, Crossing side, double from_p
         across.edges.push_back(builder_.edge(across.curve, {at[i - 1], at[i]}, across.corners[i - 1], across.corners[i]));
       add(across, true, v);
       for (std::size_t k = 0; k < wing_.patches.size(); ++k)
-        if (const WingPatch& patch = wing_.patches[k]; patch.slot && patch.kind == kind && (first_place(patch) == end || last_place(patch) == end))
-          keep_ends(side, k, last_place(patch) == end, across);
+        if (const WingPatch& patch = wing_.patches[k]; patch.slot && patch.kind == kind && (first_location(patch) == end || last_location(patch) == end))
+          keep_ends(side, k, last_location(patch) == end, across);
     }
     for (std::size_t k = 0; k < wing_.patches.size(); ++k) {  // borders of the patches, along the span
       const WingPatch& patch = wing_.patches[k];
-      if (patch.kind != kind || first_place(patch) >= to_place || last_place(patch) <= from_place) continue;
-      std::vector<double> places{std::max(from_place, first_place(patch)), std::min(to_place, last_place(patch))};
-      for (const WingPatch::Place& p : patch.border)
-        if (p.section > places.front() && p.section < places.back()) add_sorted(places, p.section);
-      for (std::size_t i = 1; i < places.size(); ++i) {
-        const Uv a{crossing_at(patch.border, places[i - 1]).*side, panel.v(places[i - 1])}, b{crossing_at(patch.border, places[i]).*side, panel.v(places[i])};
+      if (patch.kind != kind || first_location(patch) >= to_location || last_location(patch) <= from_location) continue;
+      std::vector<double> locations{std::max(from_location, first_location(patch)), std::min(to_location, last_location(patch))};
+      for (const WingPatch::Location& p : patch.border)
+        if (p.section > locations.front() && p.section < locations.back()) add_sorted(locations, p.section);
+      for (std::size_t i = 1; i < locations.size(); ++i) {
+        const Uv a{crossing_at(patch.border, locations[i - 1]).*side, panel.v(locations[i - 1])},
+            b{crossing_at(patch.border, locations[i]).*side, panel.v(locations[i])};
         const EdgeId edge = builder_.edge(line_on_surface(form, a, b), {0.0, 1.0}, corner(a), corner(b), "hinge");
         if (patch.slot) {
           CutOut& out = cut_outs_[k];
           (is_upper ? out.upper : out.lower).push_back(edge);
-          if (out.places.empty()) out.places.push_back(places.front());
-          if (is_upper) out.places.push_back(places[i]);
+          if (out.locations.empty()) out.locations.push_back(locations.front());
+          if (is_upper) out.locations.push_back(locations[i]);
         }
         if (kind == ControlKind::trailing_edge) graph.add(edge, a, b, k);
         else graph.add(edge, a, b, {}, k);
       }
     }
   }
-  const WingPatch* whole = patch_over(ControlKind::all_moving, from_place, to_place);
+  const WingPatch* whole = patch_over(ControlKind::all_moving, from_location, to_location);
   for (const SideGraph::Loop& loop : graph.loops()) {
     const WingPatch* patch = whole ? whole : loop.mark ? &wing_.patches[*loop.mark] : nullptr;
     builder_.face(surface, loop.sides, patch ? FaceRole::control : role, patch ? patch->name : wing_.name);
@@ -272,31 +273,31 @@ void WingBuilder::make_side(const WingSides& panel, Crossing side, double from_p
 }
 
 /// Builds the faces between two stations of a panel.
-void WingBuilder::make_part(const WingSides& panel, double from_place, double to_place, const Station& from, const Station& to) {
+void WingBuilder::make_part(const WingSides& panel, double from_location, double to_location, const Station& from, const Station& to) {
   // Pieces within cut-outs have no edge, and no corner where they end at a station.
-  const auto along = [&](const NurbsSurfaceForm& form, double u, const std::vector<double>& places, CornerId first, CornerId last, const char* name) {
+  const auto along = [&](const NurbsSurfaceForm& form, double u, const std::vector<double>& locations, CornerId first, CornerId last, const char* name) {
     const ControlKind kind = u == 0.0 ? ControlKind::trailing_edge : ControlKind::leading_edge;
     SplitCurve line{line_of_constant_u(form, u), {}, {}, {}};
-    for (const double place : places) {
-      line.at.push_back(panel.v(place));
-      const bool is_first = line.at.size() == 1, is_last = line.at.size() == places.size();
-      line.corners.push_back(slot_at(kind, place) ? CornerId() : is_first ? first : is_last ? last : builder_.corner(line.curve->point(line.at.back())));
+    for (const double location : locations) {
+      line.at.push_back(panel.v(location));
+      const bool is_first = line.at.size() == 1, is_last = line.at.size() == locations.size();
+      line.corners.push_back(slot_at(kind, location) ? CornerId() : is_first ? first : is_last ? last : builder_.corner(line.curve->point(line.at.back())));
       if (is_first) continue;
       const std::size_t i = line.edges.size();
-      line.edges.push_back(slot_at(kind, 0.5 * (places[i] + place))
+      line.edges.push_back(slot_at(kind, 0.5 * (locations[i] + location))
                                ? EdgeId()
                                : builder_.edge(line.curve, {line.at[i], line.at[i + 1]}, line.corners[i], line.corners[i + 1], name));
     }
     return line;
   };
-  const std::vector<double> behind = patch_ends(ControlKind::trailing_edge, from_place, to_place),
-                            before = patch_ends(ControlKind::leading_edge, from_place, to_place);
+  const std::vector<double> behind = patch_ends(ControlKind::trailing_edge, from_location, to_location),
+                            before = patch_ends(ControlKind::leading_edge, from_location, to_location);
   const SplitCurve leading = along(panel.upper, 1.0, before, from.leading(), to.leading(), "leading edge");
   const SplitCurve upper_trailing = along(panel.upper, 0.0, behind, from.upper.corners.front(), to.upper.corners.front(), "trailing edge");
   const SplitCurve lower_trailing =
       is_blunt_ ? along(panel.lower, 0.0, behind, from.lower.corners.front(), to.lower.corners.front(), "trailing edge") : upper_trailing;
-  make_side(panel, &WingPatch::Place::upper, from_place, to_place, from, to, leading, upper_trailing);
-  make_side(panel, &WingPatch::Place::lower, from_place, to_place, from, to, leading, lower_trailing);
+  make_side(panel, &WingPatch::Location::upper, from_location, to_location, from, to, leading, upper_trailing);
+  make_side(panel, &WingPatch::Location::lower, from_location, to_location, from, to, leading, lower_trailing);
   if (!is_blunt_) return;
   const SurfacePtr surface = trailing_edge_surface(panel);
   EdgeId thickness = from.thickness;
@@ -306,11 +307,11 @@ void WingBuilder::make_part(const WingSides& panel, double from_place, double to
                                                  : builder_.straight_edge(upper_trailing.corners[i], lower_trailing.corners[i]);
     for (std::size_t k = 0; k < wing_.patches.size(); ++k)
       for (const bool is_last : {false, true})
-        if (wing_.patches[k].slot && (is_last ? last_place(wing_.patches[k]) : first_place(wing_.patches[k])) == behind[i])
+        if (wing_.patches[k].slot && (is_last ? last_location(wing_.patches[k]) : first_location(wing_.patches[k])) == behind[i])
           cut_outs_[k].thickness[is_last ? 1 : 0] = next;
     if (i > 0 && upper_trailing.edges[i - 1].is_valid()) {
       const WingPatch* patch = patch_over(ControlKind::trailing_edge, behind[i - 1], behind[i]);
-      if (!patch) patch = patch_over(ControlKind::all_moving, from_place, to_place);
+      if (!patch) patch = patch_over(ControlKind::all_moving, from_location, to_location);
       const ParameterBox box{{0.0, 1.0}, {upper_trailing.at[i - 1], upper_trailing.at[i]}};
       builder_.patch(surface, box, {thickness, lower_trailing.edges[i - 1], next, upper_trailing.edges[i - 1]}, FaceRole::trailing_edge,
                      patch ? patch->name : wing_.name);
@@ -326,10 +327,10 @@ void WingBuilder::make_cove(std::size_t k) {
   std::vector<SlotStation> stations;
   std::vector<SplitCurve> sections;
   const Model& model = builder_.model();
-  for (std::size_t i = 0; i < out.places.size(); ++i) {
+  for (std::size_t i = 0; i < out.locations.size(); ++i) {
     const auto corner = [&](const std::vector<EdgeId>& lip) { return i == 0 ? model.edges[lip[0]].start : model.edges[lip[i - 1]].end; };
     SlotStation station{corner(out.upper), corner(out.lower), {}};
-    const HingeSection hinge = hinge_section(panel_at(panels_, out.places[i], i > 0), patch, out.places[i]);
+    const HingeSection hinge = hinge_section(panel_at(panels_, out.locations[i], i > 0), patch, out.locations[i]);
     station.bulge = Bulge{hinge.middle, hinge.ahead,
                           0.5 * (distance(model.corners[station.upper].point, hinge.middle) + distance(model.corners[station.lower].point, hinge.middle))};
     stations.push_back(station);
@@ -443,10 +444,10 @@ Wing part_of(const Wing& wing, double from, double to) {
   part.sections = {wing.sections.begin() + static_cast<std::ptrdiff_t>(from), wing.sections.begin() + static_cast<std::ptrdiff_t>(to) + 1};
   part.patches.clear();
   for (WingPatch patch : wing.patches) {
-    if (first_place(patch) < from || last_place(patch) > to) continue;
-    for (WingPatch::Place& p : patch.border) p.section -= from;
+    if (first_location(patch) < from || last_location(patch) > to) continue;
+    for (WingPatch::Location& p : patch.border) p.section -= from;
     if (patch.slot) {
-      for (WingPatch::Place& p : patch.slot->hinge) p.section -= from;
+      for (WingPatch::Location& p : patch.slot->hinge) p.section -= from;
       patch.slot->from -= from;
       patch.slot->to -= from;
     }
@@ -460,15 +461,15 @@ Model make_parts(const Wing& wing, std::vector<WingPatch> moving, const Transfor
   Model model;
   const double end = static_cast<double>(wing.sections.size() - 1);
   double from = 0.0;
-  std::sort(moving.begin(), moving.end(), [](const WingPatch& a, const WingPatch& b) { return first_place(a) < first_place(b); });
+  std::sort(moving.begin(), moving.end(), [](const WingPatch& a, const WingPatch& b) { return first_location(a) < first_location(b); });
   for (const WingPatch& patch : moving) {
-    if (first_place(patch) > from) append(model, WingBuilder(part_of(wing, from, first_place(patch)), map, {from > 0.0, true}).build());
+    if (first_location(patch) > from) append(model, WingBuilder(part_of(wing, from, first_location(patch)), map, {from > 0.0, true}).build());
     Wing part = part_of(wing, patch.slot->from, patch.slot->to);
     part.name = patch.name;
     part.patches = {{patch.name, ControlKind::all_moving, {{0.0, 1.0, 1.0}, {static_cast<double>(part.sections.size() - 1), 1.0, 1.0}}, {}}};
     const Transform whole = map * transform_of(wing.placement);
     append(model, transformed(WingBuilder(part, map, {patch.slot->from > 0.0, patch.slot->to < end}).build(), whole * patch.slot->motion * whole.inverse()));
-    from = last_place(patch);
+    from = last_location(patch);
   }
   if (from < end) append(model, WingBuilder(part_of(wing, from, end), map, {from > 0.0, false}).build());
   return model;

@@ -19,9 +19,10 @@ WingSides wing_sides(WingPanel panel) {
   return sides;
 }
 
-const WingSides& panel_at(const std::vector<WingSides>& panels, double place, bool is_before) {
+const WingSides& panel_at(const std::vector<WingSides>& panels, double location, bool is_before) {
   std::size_t i = 0;
-  while (i + 1 < panels.size() && (is_before ? place > static_cast<double>(panels[i + 1].first_row) : place >= static_cast<double>(panels[i + 1].first_row)))
+  while (i + 1 < panels.size() &&
+         (is_before ? location > static_cast<double>(panels[i + 1].first_row) : location >= static_cast<double>(panels[i + 1].first_row)))
     ++i;
   return panels[i];
 }
@@ -33,21 +34,21 @@ SurfacePtr trailing_edge_surface(const WingSides& sides) {
   return std::make_shared<NurbsSurface>(base);
 }
 
-double first_place(const WingPatch& patch) { return patch.border.front().section; }
-double last_place(const WingPatch& patch) { return patch.border.back().section; }
+double first_location(const WingPatch& patch) { return patch.border.front().section; }
+double last_location(const WingPatch& patch) { return patch.border.back().section; }
 
-WingPatch::Place crossing_at(const std::vector<WingPatch::Place>& line, double place) {
+WingPatch::Location crossing_at(const std::vector<WingPatch::Location>& line, double location) {
   std::size_t i = 1;
-  while (i + 1 < line.size() && place > line[i].section) ++i;
-  const WingPatch::Place &a = line[i - 1], &b = line[i];
-  if (place == a.section || place == b.section) return place == a.section ? a : b;
-  const double t = (place - a.section) / (b.section - a.section);
-  return {place, a.upper + t * (b.upper - a.upper), a.lower + t * (b.lower - a.lower)};
+  while (i + 1 < line.size() && location > line[i].section) ++i;
+  const WingPatch::Location &a = line[i - 1], &b = line[i];
+  if (location == a.section || location == b.section) return location == a.section ? a : b;
+  const double t = (location - a.section) / (b.section - a.section);
+  return {location, a.upper + t * (b.upper - a.upper), a.lower + t * (b.lower - a.lower)};
 }
 
-HingeSection hinge_section(const WingSides& sides, const WingPatch& patch, double place) {
-  const WingPatch::Place at = crossing_at(patch.slot->hinge, place);
-  const double v = sides.v(place);
+HingeSection hinge_section(const WingSides& sides, const WingPatch& patch, double location) {
+  const WingPatch::Location at = crossing_at(patch.slot->hinge, location);
+  const double v = sides.v(location);
   HingeSection section{sides.upper_surface->point({at.upper, v}), sides.lower_surface->point({at.lower, v}), {}, {}};
   section.middle = 0.5 * (section.upper + section.lower);
   const Vec3 up = normalized(section.upper - section.lower), nose = sides.upper_surface->point({1.0, v}) - section.middle;

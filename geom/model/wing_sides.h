@@ -16,22 +16,22 @@ struct WingSides : WingPanel {
 };
 WingSides wing_sides(WingPanel panel);
 /// Returns the panel that contains a location; at the border between two panels: the one before it if `is_before`.
-const WingSides& panel_at(const std::vector<WingSides>& panels, double place, bool is_before);
+const WingSides& panel_at(const std::vector<WingSides>& panels, double location, bool is_before);
 
 /// Returns the ruled surface between both sides at the trailing edge: u from the upper to the lower side.
 SurfacePtr trailing_edge_surface(const WingSides& sides);
 
-double first_place(const WingPatch& patch);
-double last_place(const WingPatch& patch);
+double first_location(const WingPatch& patch);
+double last_location(const WingPatch& patch);
 /// Returns the point at a location on a polyline, which is straight between its points.
-/// \pre `place` within them
-WingPatch::Place crossing_at(const std::vector<WingPatch::Place>& line, double place);
+/// \pre `location` within them
+WingPatch::Location crossing_at(const std::vector<WingPatch::Location>& line, double location);
 /// A patch's hinge in a section: the points where it crosses the sides, their midpoint, and the unit direction from there into the fixed part of the wing.
 struct HingeSection {
   Point upper, lower, middle;
   Vec3 ahead;
 };
-HingeSection hinge_section(const WingSides& sides, const WingPatch& patch, double place);
+HingeSection hinge_section(const WingSides& sides, const WingPatch& patch, double location);
 void add_sorted(std::vector<double>& values, double value);
 
 }  // namespace sterna

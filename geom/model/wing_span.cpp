@@ -24,9 +24,9 @@ WingSpan::WingSpan(const Wing& wing) : made_(wing_rows(wing)), panels_(wing_pane
   for (std::size_t i = 0; i + 1 < made_.rows.size(); ++i) {
     const std::size_t n = panels_[panel_of_row_[i]].v_of_row.size() == 2 ? 1 : k_curved_samples;
     for (std::size_t k = 1; k <= n; ++k) {
-      const double place = static_cast<double>(i) + static_cast<double>(k) / static_cast<double>(n);
-      const Point at = chord_middle(row(place));
-      samples_.push_back({place, samples_.back().fraction + distance(last, at), samples_.back().across + std::hypot(at.y - last.y, at.z - last.z)});
+      const double location = static_cast<double>(i) + static_cast<double>(k) / static_cast<double>(n);
+      const Point at = chord_middle(row(location));
+      samples_.push_back({location, samples_.back().fraction + distance(last, at), samples_.back().across + std::hypot(at.y - last.y, at.z - last.z)});
       last = at;
     }
   }
@@ -38,41 +38,41 @@ WingSpan::WingSpan(const Wing& wing) : made_(wing_rows(wing)), panels_(wing_pane
 std::vector<double> WingSpan::fractions() const {
   std::vector<double> result;
   for (const Sample& s : samples_)
-    if (s.place == std::floor(s.place)) result.push_back(s.fraction);
+    if (s.location == std::floor(s.location)) result.push_back(s.fraction);
   return result;
 }
 
-double WingSpan::place_of(double fraction) const {
+double WingSpan::location_of(double fraction) const {
   const auto above = std::upper_bound(samples_.begin() + 1, samples_.end() - 1, fraction, [](double value, const Sample& s) { return value < s.fraction; });
   const Sample &a = *(above - 1), &b = *above;
   const double t = std::clamp((fraction - a.fraction) / (b.fraction - a.fraction), 0.0, 1.0);
-  return t == 0.0 ? a.place : t == 1.0 ? b.place : a.place + t * (b.place - a.place);
+  return t == 0.0 ? a.location : t == 1.0 ? b.location : a.location + t * (b.location - a.location);
 }
 
-double WingSpan::fraction_of(double place) const {
-  const auto above = std::upper_bound(samples_.begin() + 1, samples_.end() - 1, place, [](double value, const Sample& s) { return value < s.place; });
+double WingSpan::fraction_of(double location) const {
+  const auto above = std::upper_bound(samples_.begin() + 1, samples_.end() - 1, location, [](double value, const Sample& s) { return value < s.location; });
   const Sample &a = *(above - 1), &b = *above;
-  const double t = std::clamp((place - a.place) / (b.place - a.place), 0.0, 1.0);
+  const double t = std::clamp((location - a.location) / (b.location - a.location), 0.0, 1.0);
   return t == 0.0 ? a.fraction : t == 1.0 ? b.fraction : a.fraction + t * (b.fraction - a.fraction);
 }
 
-std::vector<Point> WingSpan::row(double place) const {
-  const auto i = static_cast<std::size_t>(place);
-  if (place == std::floor(place)) return made_.rows[i];
+std::vector<Point> WingSpan::row(double location) const {
+  const auto i = static_cast<std::size_t>(location);
+  if (location == std::floor(location)) return made_.rows[i];
   const WingPanel& panel = panels_[panel_of_row_[i]];
   std::vector<Point> row;
   if (panel.v_of_row.size() == 2) {
-    const double t = place - std::floor(place);
+    const double t = location - std::floor(location);
     for (std::size_t k = 0; k < made_.rows[i].size(); ++k) row.push_back((1.0 - t) * made_.rows[i][k] + t * made_.rows[i + 1][k]);
     return row;
   }
   const NurbsSurface surface(panel.form);
-  const double v = panel.v(place);
+  const double v = panel.v(location);
   for (const double u : row_parameters(made_.rows[i].size() / 2)) row.push_back(surface.point({u, v}));
   return row;
 }
 
-double WingSpan::place_from_root(const Wing& wing, double part) const {
+double WingSpan::location_from_root(const Wing& wing, double part) const {
   const double whole = samples_.back().across;
   const auto off_plane = [](const std::vector<Point>& row) { return std::abs(chord_middle(row).y); };
   const std::vector<Point>&first = made_.rows.front(), &last = made_.rows.back();
@@ -80,8 +80,8 @@ double WingSpan::place_from_root(const Wing& wing, double part) const {
   const double across = wing.is_symmetric ? 0.5 * whole * (1.0 - part) : is_first ? part * whole : (1.0 - part) * whole;
   const auto above = std::upper_bound(samples_.begin() + 1, samples_.end() - 1, across, [](double value, const Sample& s) { return value < s.across; });
   const Sample &a = *(above - 1), &b = *above;
-  return b.across > a.across ? a.place + (across - a.across) / (b.across - a.across) * (b.place - a.place)
-                             : a.place;  // beyond the ends the end parts are extrapolated
+  return b.across > a.across ? a.location + (across - a.across) / (b.across - a.across) * (b.location - a.location)
+                             : a.location;  // beyond the ends the end parts are extrapolated
 }
 
 }  // namespace sterna

@@ -21,18 +21,18 @@ class WingSpan {
   double length() const { return length_; }
   /// Returns the fractions of the rows.
   std::vector<double> fractions() const;
-  double place_of(double fraction) const;
-  double fraction_of(double place) const;
+  double location_of(double fraction) const;
+  double fraction_of(double location) const;
   /// Returns the wing's cross section; at integer locations exactly the row, to the bit.
-  std::vector<Point> row(double place) const;
+  std::vector<Point> row(double location) const;
   /// Returns the location at a fraction `part` of the way from the root (0) to the tip (1). The way is measured perpendicular to the flow, along the midpoints
   /// of the chords as seen along x. The root is the plane of symmetry. For wings that are not symmetric it is the end nearer to the plane if they have a mirror
   /// image, else the end with the longer chord.
-  double place_from_root(const Wing& wing, double part) const;
+  double location_from_root(const Wing& wing, double part) const;
 
  private:
   struct Sample {
-    double place;
+    double location;
     double fraction;
     double across;  ///< length seen along x from the first tip
   };

@@ -78,18 +78,18 @@ XmlFile::~XmlFile() = default;
 
 pugi::xml_node XmlFile::root() const { return document_->document_element(); }
 
-std::string XmlFile::place(const pugi::xml_node& node) const {
+std::string XmlFile::location(const pugi::xml_node& node) const {
   std::string path;
   for (pugi::xml_node at = node; at.type() == pugi::node_element; at = at.parent()) path = "/" + (at.name() + label_of(at)) + path;
   return "line " + std::to_string(line_and_column(bytes_, node.offset_debug()).first) + ", " + path;
 }
 
 void XmlFile::fail(const pugi::xml_node& node, const std::string& problem, const std::string& hint) const {
-  throw Error({.code = ErrorCode::file_malformed, .attempted = "reading " + path_.string(), .problem = place(node) + ": " + problem, .hint = hint});
+  throw Error({.code = ErrorCode::file_malformed, .attempted = "reading " + path_.string(), .problem = location(node) + ": " + problem, .hint = hint});
 }
 
-void XmlFile::tell(const pugi::xml_node& node, const std::string& text) {
-  std::string message = place(node) + ": " + text;
+void XmlFile::report(const pugi::xml_node& node, const std::string& text) {
+  std::string message = location(node) + ": " + text;
   if (std::find(messages_.begin(), messages_.end(), message) == messages_.end()) messages_.push_back(std::move(message));
 }
 
@@ -135,7 +135,7 @@ bool XmlFile::boolean(const pugi::xml_node& node, const char* attribute, bool fa
   const std::string_view value = a.value();
   if (value == "true" || value == "1") return true;
   if (value != "false" && value != "0")
-    tell(node, std::string("attribute '") + attribute + "' is '" + a.value() + "', neither true nor false; false is assumed");
+    report(node, std::string("attribute '") + attribute + "' is '" + a.value() + "', neither true nor false; false is assumed");
   return false;
 }
 
@@ -208,11 +208,11 @@ std::vector<Uv> XmlFile::pairs(const pugi::xml_node& node) const {
 
 void XmlFile::warn_unknown(const pugi::xml_node& node, std::string_view attributes, std::initializer_list<std::string_view> children) {
   for (const pugi::xml_attribute a : node.attributes())
-    if (!is_listed(attributes, a.name())) tell(node, std::string("attribute '") + a.name() + "' is not known and was left out");
+    if (!is_listed(attributes, a.name())) report(node, std::string("attribute '") + a.name() + "' is not known and was left out");
   for (const pugi::xml_node child : node.children())
     if (child.type() == pugi::node_element &&
         std::none_of(children.begin(), children.end(), [&](std::string_view list) { return is_listed(list, child.name()); }))
-      tell(child, "this element is not known and was left out");
+      report(child, "this element is not known and was left out");
 }
 
 }  // namespace sterna

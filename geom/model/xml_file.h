@@ -29,11 +29,11 @@ class XmlFile {
 
   pugi::xml_node root() const;
   /// Returns "line 12, /Assembly/BodySkeleton[Fuselage]/BodyFrame[FrameX0]"; elements by name or uID, else by their index among equal elements.
-  std::string place(const pugi::xml_node& node) const;
+  std::string location(const pugi::xml_node& node) const;
   /// \throws Error(file_malformed)
   [[noreturn]] void fail(const pugi::xml_node& node, const std::string& problem, const std::string& hint = {}) const;
   /// Adds "line 12, /path: text" to the messages, without duplicates.
-  void tell(const pugi::xml_node& node, const std::string& text);
+  void report(const pugi::xml_node& node, const std::string& text);
   std::vector<std::string>& messages() { return messages_; }
 
   std::string text(const pugi::xml_node& node, const char* attribute, std::string_view fallback = {}) const;

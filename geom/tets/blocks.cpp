@@ -4,7 +4,7 @@
 #include <array>
 
 #include "geom/base/parallel.h"
-#include "geom/tets/curve.h"
+#include "geom/tets/hilbert_curve.h"
 
 namespace sterna::tets {
 

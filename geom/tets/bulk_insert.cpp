@@ -18,8 +18,8 @@ constexpr int k_most_block_halvings = 6;
 constexpr std::array<double, 3> k_shares = {0.5, 0.4, 0.6};
 constexpr std::size_t k_block_seeds = 4096;  ///< smallest mean number of seeds per block
 /// New slots of a block per seed. A point adds six and a half tetrahedra in the mean, but not every seed is inserted.
-constexpr std::size_t k_places_per_seed = 3;
-constexpr std::size_t k_more_places = 256;
+constexpr std::size_t k_locations_per_seed = 3;
+constexpr std::size_t k_more_locations = 256;
 constexpr std::size_t k_stop_seeds = 4096;  ///< seeds between two checks of the stop token
 
 /// Returns the corner that determines the block of a large tetrahedron: the one nearest to another corner.
@@ -90,18 +90,18 @@ void BulkInserter::reserve(std::size_t n) {
   state_.reserve(n);
 }
 
-void BulkInserter::make_room(std::size_t n_places) {
-  if (n_places >= k_most_tets)
+void BulkInserter::make_room(std::size_t n_locations) {
+  if (n_locations >= k_most_tets)
     throw Error({.code = ErrorCode::overflow,
                  .attempted = "refining tetrahedra",
-                 .problem = std::to_string(n_places) + " tetrahedra, limit " + std::to_string(k_most_tets - 1),
+                 .problem = std::to_string(n_locations) + " tetrahedra, limit " + std::to_string(k_most_tets - 1),
                  .hint = "use larger sizes: a size or a source is very small in a large region"});
-  if (n_places > mesh_.nodes.capacity()) reserve(n_places + n_places / 4);  // less than doubled, to save memory
-  mesh_.nodes.resize(n_places, {k_none, k_none, k_none, k_none});
-  mesh_.neighbours.resize(n_places, {k_none, k_none, k_none, k_none});
-  mark_.resize(n_places, 0);
-  state_.resize(n_places, 0);
-  is_changed_.resize(n_places / k_chunk + 1, 0);
+  if (n_locations > mesh_.nodes.capacity()) reserve(n_locations + n_locations / 4);  // less than doubled, to save memory
+  mesh_.nodes.resize(n_locations, {k_none, k_none, k_none, k_none});
+  mesh_.neighbours.resize(n_locations, {k_none, k_none, k_none, k_none});
+  mark_.resize(n_locations, 0);
+  state_.resize(n_locations, 0);
+  is_changed_.resize(n_locations / k_chunk + 1, 0);
 }
 
 /// Distributes the free slots. Those of former tetrahedra go to their block, so that walks from them start nearby; the others are divided into equal parts.
@@ -145,15 +145,16 @@ std::vector<std::uint32_t> BulkInserter::run_pass(std::span<const Seed> seeds, s
   for (std::size_t i = 0; i < order.size(); ++i) own[starts[i].block].push_back(static_cast<std::uint32_t>(i));
 
   std::vector<std::vector<std::uint32_t>> free = dealt_out(blocks, context);
-  std::size_t n_places = mesh_.nodes.size();
+  std::size_t n_locations = mesh_.nodes.size();
   std::vector<std::uint32_t> first_new(n_blocks + 1);
   for (std::size_t block = 0; block < n_blocks; ++block) {
-    const std::size_t wanted = k_places_per_seed * own[block].size() + (n_blocks > 1 ? k_more_places : 2 * most_effort_ + 4);  // one block: slots for any point
-    first_new[block] = static_cast<std::uint32_t>(n_places);
-    if (wanted > free[block].size()) n_places += wanted - free[block].size();
+    const std::size_t needed =
+        k_locations_per_seed * own[block].size() + (n_blocks > 1 ? k_more_locations : 2 * most_effort_ + 4);  // one block: slots for any point
+    first_new[block] = static_cast<std::uint32_t>(n_locations);
+    if (needed > free[block].size()) n_locations += needed - free[block].size();
   }
-  first_new[n_blocks] = static_cast<std::uint32_t>(n_places);
-  make_room(n_places);
+  first_new[n_blocks] = static_cast<std::uint32_t>(n_locations);
+  make_room(n_locations);
 
   const InsertTarget target{mesh_, mark_, state_, is_changed_, n_corners_, first_point, most_effort_};
   parallel_chunks(context, n_blocks, 1, [&](std::size_t block, std::size_t) {
@@ -188,18 +189,18 @@ std::vector<std::uint32_t> BulkInserter::order_along_curve(std::span<const Seed>
 }
 
 void BulkInserter::find_starts(std::span<Seed> seeds, const RunContext& context) const {
-  struct Place {
+  struct Location {
     std::uint64_t key;
     std::uint32_t tet;
   };
-  std::vector<Place> places;
+  std::vector<Location> locations;
   for (std::uint32_t t = 0; t < mesh_.nodes.size(); ++t)
-    if (mesh_.is_alive(t)) places.push_back({0, t});
-  parallel_for(context, places.size(), [&](std::size_t i) { places[i].key = curve_.key(mesh_.points[mesh_.nodes[places[i].tet][3]]); });
-  parallel_sort(context, places, [](const Place& a, const Place& b) { return a.key != b.key ? a.key < b.key : a.tet < b.tet; });
+    if (mesh_.is_alive(t)) locations.push_back({0, t});
+  parallel_for(context, locations.size(), [&](std::size_t i) { locations[i].key = curve_.key(mesh_.points[mesh_.nodes[locations[i].tet][3]]); });
+  parallel_sort(context, locations, [](const Location& a, const Location& b) { return a.key != b.key ? a.key < b.key : a.tet < b.tet; });
   parallel_for(context, seeds.size(), [&](std::size_t i) {
-    const auto at = std::ranges::lower_bound(places, curve_.key(seeds[i].position), {}, &Place::key);
-    seeds[i].start = at == places.end() ? places.back().tet : at->tet;
+    const auto at = std::ranges::lower_bound(locations, curve_.key(seeds[i].position), {}, &Location::key);
+    seeds[i].start = at == locations.end() ? locations.back().tet : at->tet;
   });
 }
 
@@ -225,8 +226,8 @@ std::vector<Insertion> BulkInserter::insert(std::span<const Seed> seeds, std::ve
     int n_halvings = 0;
     while (n_halvings < k_most_block_halvings && order.size() >> (n_halvings + 1) >= k_block_seeds) ++n_halvings;
     if (n_halvings == 0) break;
-    std::vector<Vec3> places(mesh_.points.begin() + static_cast<std::ptrdiff_t>(first_point), mesh_.points.end());
-    order = run_pass(seeds, order, Blocks(std::move(places), n_halvings, share, context), static_cast<std::uint32_t>(first_point), results, context);
+    std::vector<Vec3> locations(mesh_.points.begin() + static_cast<std::ptrdiff_t>(first_point), mesh_.points.end());
+    order = run_pass(seeds, order, Blocks(std::move(locations), n_halvings, share, context), static_cast<std::uint32_t>(first_point), results, context);
   }
   n_serial_ += static_cast<std::int64_t>(order.size());
   // Repeated only if the new slots were not sufficient.

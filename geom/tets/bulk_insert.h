@@ -7,7 +7,7 @@
 
 #include "geom/base/run_context.h"
 #include "geom/tets/blocks.h"
-#include "geom/tets/curve.h"
+#include "geom/tets/hilbert_curve.h"
 #include "geom/tets/insert.h"
 #include "geom/tets/tet_mesh.h"
 
@@ -54,7 +54,7 @@ class BulkInserter {
   std::vector<std::uint32_t> run_pass(std::span<const Seed> seeds, std::span<const std::uint32_t> order, const Blocks& blocks, std::uint32_t first_point,
                                       std::vector<Insertion>& results, const RunContext& context);
   std::uint32_t first_alive() const;
-  void make_room(std::size_t n_places);
+  void make_room(std::size_t n_locations);
   std::vector<std::vector<std::uint32_t>> dealt_out(const Blocks& blocks, const RunContext& context);
   bool is_in(std::uint32_t t, const Block& block) const { return block.holds(mesh_.points[mesh_.nodes[t][3]]); }
 

@@ -29,7 +29,7 @@ bool has(const Corners& v, std::uint32_t node) { return v[0] == node || v[1] == 
 
 }  // namespace
 
-Flips::Flips(Borrowed<TetMesh> mesh, Borrowed<const FacetIndex> wanted) : mesh_(mesh), wanted_(wanted) {
+Flips::Flips(Borrowed<TetMesh> mesh, Borrowed<const FacetIndex> required) : mesh_(mesh), required_(required) {
   tet_at_.assign(mesh->points.size(), k_none);
   for (std::uint32_t t = 0; t < mesh->nodes.size(); ++t) {
     if (!mesh->is_alive(t)) continue;
@@ -156,19 +156,19 @@ bool Flips::replace(std::span<const std::uint32_t> gone, std::span<const Corners
   }
   if (!sides_.empty()) return false;
 
-  std::vector<std::uint32_t> places(gone.begin(), gone.end());
+  std::vector<std::uint32_t> locations(gone.begin(), gone.end());
   for (const std::uint32_t t : gone) save(t);
-  while (places.size() < made.size()) {
+  while (locations.size() < made.size()) {
     const auto t = static_cast<std::uint32_t>(mesh_.nodes.size());
     // The slot is saved before it exists, so that undo removes it.
     journal_.push_back({t, {k_none, k_none, k_none, k_none}, {k_none, k_none, k_none, k_none}, t});
     mesh_.nodes.push_back({k_none, k_none, k_none, k_none});
     mesh_.neighbours.push_back({k_none, k_none, k_none, k_none});
-    places.push_back(t);
+    locations.push_back(t);
   }
   for (const std::uint32_t t : gone) mesh_.nodes[t] = {k_none, k_none, k_none, k_none};
   for (std::size_t i = 0; i < made.size(); ++i) {
-    const std::uint32_t t = places[i];
+    const std::uint32_t t = locations[i];
     mesh_.nodes[t] = made[i];
     for (std::uint32_t corner = 0; corner < 4; ++corner) {
       std::uint32_t& n = mesh_.neighbours[t][corner];
@@ -178,7 +178,7 @@ bool Flips::replace(std::span<const std::uint32_t> gone, std::span<const Corners
         save(n / 4);
         mesh_.neighbours[n / 4][n % 4] = 4 * t + corner;
       } else {
-        n = 4 * places[links[i][corner] / 4] + links[i][corner] % 4;
+        n = 4 * locations[links[i][corner] / 4] + links[i][corner] % 4;
       }
     }
     for (const std::uint32_t v : made[i]) tet_at_[v] = t;
@@ -192,7 +192,7 @@ bool Flips::flip_face(std::uint32_t face) {
   const auto& f = k_face[face % 4];
   const std::uint32_t a = mesh_.nodes[t][f[0]], b = mesh_.nodes[t][f[1]], c = mesh_.nodes[t][f[2]];
   const std::uint32_t top = mesh_.nodes[t][face % 4], bottom = mesh_.nodes[n / 4][n % 4];
-  if (wanted_.find_facet(a, b, c) != FacetIndex::k_missing) return false;
+  if (required_.find_facet(a, b, c) != FacetIndex::k_missing) return false;
   const std::array<Corners, 3> made = {{{a, b, bottom, top}, {b, c, bottom, top}, {c, a, bottom, top}}};
   if (!std::ranges::all_of(made, [&](const Corners& v) { return is_positive(v); })) return false;
   return replace(std::array{t, n / 4}, made);
@@ -252,7 +252,7 @@ bool Flips::fill_ring(std::uint32_t p, std::uint32_t q, const Ring& ring, const 
 }
 
 bool Flips::remove_edge(std::uint32_t p, std::uint32_t q, int depth, const FlipCosts& costs) {
-  if (wanted_.find_edge(p, q) != FacetIndex::k_missing) return false;
+  if (required_.find_edge(p, q) != FacetIndex::k_missing) return false;
   const bool is_first = effort_ == 0;
   if (is_first) effort_ = k_most_effort;
   const std::size_t before = state();
@@ -304,7 +304,7 @@ std::uint32_t Flips::tet_around_lost_edge(std::span<const std::uint32_t> cavity,
     const Corners& v = mesh_.nodes[t];
     for (std::size_t i = 0; i < 4; ++i) {
       for (std::size_t j = 0; j < i; ++j) {
-        if (wanted_.find_edge(v[i], v[j]) == FacetIndex::k_missing) continue;
+        if (required_.find_edge(v[i], v[j]) == FacetIndex::k_missing) continue;
         const auto is_on = [&](const Facet& f) { return std::ranges::find(f, v[i]) != f.end() && std::ranges::find(f, v[j]) != f.end(); };
         if (std::ranges::any_of(hull, is_on)) continue;
         for (const std::uint32_t other : cavity.subspan(1))
@@ -350,7 +350,7 @@ bool Flips::add_point(const Vec3& position, std::uint32_t start) {
         if (n == k_none || is_in(cavity, n / 4) || is_in(barred, n / 4)) continue;
         const Corners& v = mesh_.nodes[cavity[i]];
         const auto& f = k_face[corner];
-        if (wanted_.find_facet(v[f[0]], v[f[1]], v[f[2]]) != FacetIndex::k_missing) continue;
+        if (required_.find_facet(v[f[0]], v[f[1]], v[f[2]]) != FacetIndex::k_missing) continue;
         if (perturbed_sphere_side(mesh_, mesh_.nodes[n / 4], point) > 0) cavity.push_back(n / 4);
       }
     }

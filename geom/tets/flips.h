@@ -28,10 +28,10 @@ struct FlipCosts {
 class Flips {
  public:
   /// The edges and facets of the second argument are kept where they exist.
-  Flips(Borrowed<TetMesh> mesh, Borrowed<const FacetIndex> wanted);
+  Flips(Borrowed<TetMesh> mesh, Borrowed<const FacetIndex> required);
 
   const TetMesh& mesh() const { return mesh_; }
-  const FacetIndex& wanted() const { return wanted_; }
+  const FacetIndex& required() const { return required_; }
   /// Returns a tetrahedron at a point that has one.
   std::uint32_t tet_at(std::uint32_t v) const { return tet_at_[v]; }
   /// Collects all tetrahedra at a point, the first being tet_at().
@@ -81,7 +81,7 @@ class Flips {
   bool is_positive(const Corners& v) const;
 
   TetMesh& mesh_;
-  const FacetIndex& wanted_;
+  const FacetIndex& required_;
   std::vector<std::uint32_t> tet_at_;
   std::vector<Entry> journal_;
   std::vector<Side> sides_;

@@ -10,8 +10,8 @@
 #include "geom/base/error.h"
 #include "geom/base/parallel.h"
 #include "geom/tets/bulk_insert.h"
-#include "geom/tets/curve.h"
 #include "geom/tets/flips.h"
+#include "geom/tets/hilbert_curve.h"
 #include "geom/tets/piercing.h"
 
 namespace sterna::tets {
@@ -83,11 +83,11 @@ TetMesh delaunay(std::span<const Vec3> points, RecoverFailure& failure, const Ru
         round.resize(n_left);
       }
       for (const std::uint32_t v : round)
-        if (failure.n_places++ < static_cast<std::int64_t>(k_max_places)) failure.places.push_back(points[v]);
+        if (failure.n_locations++ < static_cast<std::int64_t>(k_max_locations)) failure.locations.push_back(points[v]);
     }
   }
-  if (failure.n_places > 0) {
-    failure.problem = std::to_string(failure.n_places) + " points of the boundary cannot be inserted into the tetrahedral mesh";
+  if (failure.n_locations > 0) {
+    failure.problem = std::to_string(failure.n_locations) + " points of the boundary cannot be inserted into the tetrahedral mesh";
     return {};
   }
   parallel_for(context, mesh.nodes.size(), [&](std::size_t t) {
@@ -117,7 +117,8 @@ std::vector<std::uint32_t> missing(std::size_t n, const TetMesh& mesh, const Mar
 
 class Recoverer {
  public:
-  Recoverer(TetMesh& mesh, const FacetIndex& wanted, const RunContext& context) : mesh_(mesh), wanted_(wanted), context_(context), flips_(mesh, wanted) {}
+  Recoverer(TetMesh& mesh, const FacetIndex& required, const RunContext& context)
+      : mesh_(mesh), required_(required), context_(context), flips_(mesh, required) {}
 
   /// Recovers edges, then facets. Remaining ones are reported.
   void run(RecoverReport& report, RecoverFailure& failure);
@@ -137,7 +138,7 @@ class Recoverer {
   bool try_flip(const Flip& flip, const Count& count, std::size_t n_before);
 
   TetMesh& mesh_;
-  const FacetIndex& wanted_;
+  const FacetIndex& required_;
   const RunContext& context_;
   Flips flips_;
 };
@@ -228,13 +229,13 @@ bool Recoverer::add_points_beside(const Vec3& at, const Vec3& normal, double len
 bool Recoverer::add_points_in_ring(const Edge& edge, const Edge& across, const Vec3& at, const Vec3& normal, double length, RecoverReport& report) {
   const auto [p, q] = across;
   const Vec3 from = mesh_.points[p];
-  const Vec3 foot = at + k_aside * (from - at);  // off the crossing: otherwise the edge between both points would be as good as the required one
+  const Vec3 aside = at + k_aside * (from - at);  // off the crossing: otherwise the edge between both points would be as good as the required one
   const double side = dot(cross(mesh_.points[q] - from, mesh_.points[edge[0]] - from), normal) > 0.0 ? 1.0 : -1.0;
   for (const bool is_first : {true, false}) {
     const Edge ends = is_first ? edge : Edge{edge[1], edge[0]};
     double beside = (is_first ? side : -side) * k_beside * length;
     int n_halvings = 0;
-    while (!flips_.add_point_in_ring(p, q, ends[0], ends[1], foot + beside * normalized(normal))) {
+    while (!flips_.add_point_in_ring(p, q, ends[0], ends[1], aside + beside * normalized(normal))) {
       if (++n_halvings > k_most_edge_halvings) return false;
       beside *= 0.5;
     }
@@ -303,41 +304,41 @@ void Recoverer::make_all(std::vector<std::uint32_t>& list, const Make& make, con
 }
 
 void Recoverer::run(RecoverReport& report, RecoverFailure& failure) {
-  const auto tell = [&](const std::string& what, std::size_t n, const auto& place) {
+  const auto describe = [&](const std::string& what, std::size_t n, const auto& location) {
     failure.problem = std::to_string(n) + " " + what + " of the boundary could not be recovered in the mesh";
-    failure.n_places = static_cast<std::int64_t>(n);
-    for (std::size_t i = 0; i < std::min(n, k_max_places); ++i) failure.places.push_back(place(i));
+    failure.n_locations = static_cast<std::int64_t>(n);
+    for (std::size_t i = 0; i < std::min(n, k_max_locations); ++i) failure.locations.push_back(location(i));
   };
   const auto mark_edges = [&](const Corners& v, const auto& mark) {
     for (std::size_t i = 0; i < 4; ++i)
-      for (std::size_t j = 0; j < i; ++j) mark(wanted_.find_edge(v[i], v[j]));
+      for (std::size_t j = 0; j < i; ++j) mark(required_.find_edge(v[i], v[j]));
   };
-  std::vector<std::uint32_t> edges = missing(wanted_.n_edges(), mesh_, mark_edges, context_);
+  std::vector<std::uint32_t> edges = missing(required_.n_edges(), mesh_, mark_edges, context_);
   report.n_missing_edges = static_cast<std::int64_t>(edges.size());
   make_all(
-      edges, [&](std::uint32_t i, int depth) { return make_edge(wanted_.edge(i), depth); },
-      [&](std::uint32_t i, int n_before) { return help_edge(wanted_.edge(i), n_before, report); });
+      edges, [&](std::uint32_t i, int depth) { return make_edge(required_.edge(i), depth); },
+      [&](std::uint32_t i, int n_before) { return help_edge(required_.edge(i), n_before, report); });
   if (!edges.empty())
-    return tell("edges", edges.size(),
-                [&](std::size_t i) { return 0.5 * (mesh_.points[wanted_.edge(edges[i])[0]] + mesh_.points[wanted_.edge(edges[i])[1]]); });
+    return describe("edges", edges.size(),
+                    [&](std::size_t i) { return 0.5 * (mesh_.points[required_.edge(edges[i])[0]] + mesh_.points[required_.edge(edges[i])[1]]); });
 
   const auto mark_facets = [&](const Corners& v, const auto& mark) {
-    for (const auto& f : k_face) mark(wanted_.find_facet(v[f[0]], v[f[1]], v[f[2]]));
+    for (const auto& f : k_face) mark(required_.find_facet(v[f[0]], v[f[1]], v[f[2]]));
   };
-  std::vector<std::uint32_t> facets = missing(wanted_.facets().size(), mesh_, mark_facets, context_);
+  std::vector<std::uint32_t> facets = missing(required_.facets().size(), mesh_, mark_facets, context_);
   report.n_missing_facets = static_cast<std::int64_t>(facets.size());
   make_all(
-      facets, [&](std::uint32_t i, int depth) { return make_facet(wanted_.facets()[i], depth); },
-      [&](std::uint32_t i, int n_before) { return help_facet(wanted_.facets()[i], n_before, report); });
+      facets, [&](std::uint32_t i, int depth) { return make_facet(required_.facets()[i], depth); },
+      [&](std::uint32_t i, int n_before) { return help_facet(required_.facets()[i], n_before, report); });
   if (!facets.empty())
-    return tell("triangles", facets.size(), [&](std::size_t i) {
-      const Facet& f = wanted_.facets()[facets[i]];
+    return describe("triangles", facets.size(), [&](std::size_t i) {
+      const Facet& f = required_.facets()[facets[i]];
       return (mesh_.points[f[0]] + mesh_.points[f[1]] + mesh_.points[f[2]]) / 3.0;
     });
 }
 
 /// Keeps the tetrahedra on the side of the facets to which their normals point. Returns false if that is not a single side.
-bool keep_domain(TetMesh& mesh, const FacetIndex& wanted, std::size_t n_facets, std::size_t n_points, const RunContext& context) {
+bool keep_domain(TetMesh& mesh, const FacetIndex& required, std::size_t n_facets, std::size_t n_points, const RunContext& context) {
   // First give facets no neighbour on either side. Then let the inside grow from the inner side of each facet.
   constexpr std::uint8_t k_outside = 0, k_inside = 1;
   std::vector<std::uint8_t> side(mesh.nodes.size(), k_outside);
@@ -350,7 +351,7 @@ bool keep_domain(TetMesh& mesh, const FacetIndex& wanted, std::size_t n_facets, 
       const Corners& v = mesh.nodes[t];
       for (std::uint32_t corner = 0; corner < 4; ++corner) {
         const auto& f = k_face[corner];
-        const std::uint32_t facet = wanted.find_facet(v[f[0]], v[f[1]], v[f[2]]);
+        const std::uint32_t facet = required.find_facet(v[f[0]], v[f[1]], v[f[2]]);
         if (facet < n_facets) list.push_back({static_cast<std::uint32_t>(4 * t + corner), facet});
       }
     }
@@ -359,7 +360,7 @@ bool keep_domain(TetMesh& mesh, const FacetIndex& wanted, std::size_t n_facets, 
   for (const Cut& cut : cuts) {
     const std::uint32_t t = cut.face / 4;
     mesh.neighbours[t][cut.face % 4] = k_none;
-    const Facet& facet = wanted.facets()[cut.facet];
+    const Facet& facet = required.facets()[cut.facet];
     const auto& f = k_face[cut.face % 4];
     const std::size_t at = static_cast<std::size_t>(std::ranges::find(facet, mesh.nodes[t][f[0]]) - facet.begin());
     if (facet[(at + 1) % 3] == mesh.nodes[t][f[1]]) {
@@ -388,17 +389,17 @@ bool keep_domain(TetMesh& mesh, const FacetIndex& wanted, std::size_t n_facets, 
 
 }  // namespace
 
-Recovery recover(std::span<const Vec3> points, std::span<const Facet> facets, std::span<const Facet> sheets, const RunContext& context) {
+Recovery recover(std::span<const Vec3> points, std::span<const Facet> facets, std::span<const Facet> baffles, const RunContext& context) {
   Recovery recovery;
   recovery.mesh = delaunay(points, recovery.failure, context);
   if (!recovery.failure.problem.empty()) return recovery;
   std::vector<Facet> all(facets.begin(), facets.end());
-  all.insert(all.end(), sheets.begin(), sheets.end());
-  const FacetIndex wanted(all, points.size(), context);
-  recovery.report.n_edges = static_cast<std::int64_t>(wanted.n_edges());
+  all.insert(all.end(), baffles.begin(), baffles.end());
+  const FacetIndex required(all, points.size(), context);
+  recovery.report.n_edges = static_cast<std::int64_t>(required.n_edges());
   recovery.report.n_facets = static_cast<std::int64_t>(all.size());
-  Recoverer(recovery.mesh, wanted, context).run(recovery.report, recovery.failure);
-  if (recovery.failure.problem.empty() && !keep_domain(recovery.mesh, wanted, facets.size(), points.size(), context))
+  Recoverer(recovery.mesh, required, context).run(recovery.report, recovery.failure);
+  if (recovery.failure.problem.empty() && !keep_domain(recovery.mesh, required, facets.size(), points.size(), context))
     recovery.failure.problem = "the normals of the boundary do not all point to the same side";
   if (!recovery.failure.problem.empty()) {
     recovery.mesh = {};

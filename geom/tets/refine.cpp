@@ -96,7 +96,7 @@ class Refiner {
     for (; report_.rounds < k_most_rounds; ++report_.rounds) {
       context_.check_stop();
       if (report_.is_over_limit = bytes() > most_bytes_; report_.is_over_limit) break;
-      tell_progress();
+      report_progress();
       judge();
       const std::int64_t n_inserted = round(needs_front);
       if (n_inserted < 0) {  // no tetrahedron had a proposal
@@ -121,7 +121,7 @@ class Refiner {
   }
   double length_at(const Vec3& p) const { return k_length_factor * sizes_(p); }
   /// Reports the progress by the number of tetrahedra relative to the expected number.
-  void tell_progress() const {
+  void report_progress() const {
     const double n = static_cast<double>(mesh_.nodes.size()), all = k_share_expected * static_cast<double>(expected_);
     context_.progress(n < all ? n / all : n / (n + 0.1 * all));
   }
@@ -134,11 +134,11 @@ class Refiner {
   }
   std::int64_t round(bool needs_front);
   std::optional<Seed> propose(std::uint32_t t, bool needs_front) const;
-  struct Place {
+  struct Location {
     Vec3 position;
     double length = 0.0;  ///< target length there
   };
-  std::optional<Place> in_front(std::size_t face, const std::array<Vec3, 4>& p, const Sphere& sphere) const;
+  std::optional<Location> in_front(std::size_t face, const std::array<Vec3, 4>& p, const Sphere& sphere) const;
 
   TetMesh& mesh_;
   const SizeFunction& sizes_;
@@ -190,18 +190,18 @@ std::int64_t Refiner::count_far() const {
 }
 
 /// Returns the point in front of a face, between the centre of its circle and that of the sphere.
-std::optional<Refiner::Place> Refiner::in_front(std::size_t face, const std::array<Vec3, 4>& p, const Sphere& sphere) const {
+std::optional<Refiner::Location> Refiner::in_front(std::size_t face, const std::array<Vec3, 4>& p, const Sphere& sphere) const {
   const Base base = base_of(p[k_face[face][0]], p[k_face[face][1]], p[k_face[face][2]]);
   // Approximate position of the new point: above the face at the height of a regular tetrahedron.
   const double length = length_at(base.middle + std::numbers::sqrt2 * base.radius * base.normal), edge = k_front_edge * length;
   if (base.radius > 0.95 * edge) {  // the face is larger than the target length here
     const Vec3 low = base.middle + k_least_height * edge * base.normal;
-    return Place{low, length_at(low)};
+    return Location{low, length_at(low)};
   }
   const double height = std::max(std::sqrt(edge * edge - base.radius * base.radius), k_least_height * edge);
   const double to_center = dot(sphere.center - base.center, base.normal);
   if (to_center <= k_merge * height) return std::nullopt;
-  return Place{base.center + height * base.normal, length};
+  return Location{base.center + height * base.normal, length};
 }
 
 std::optional<Seed> Refiner::propose(std::uint32_t t, bool needs_front) const {
@@ -221,12 +221,12 @@ std::optional<Seed> Refiner::propose(std::uint32_t t, bool needs_front) const {
   if (needs_front && best == 4) return std::nullopt;
   const Sphere sphere = circumsphere(p);
   Seed seed{.start = t};
-  std::optional<Place> place;
-  if (n_proposed == 0 && best < 4) place = in_front(best, p, sphere);
+  std::optional<Location> location;
+  if (n_proposed == 0 && best < 4) location = in_front(best, p, sphere);
   seed.position = sphere.center;
   if (n_proposed >= 2 || !(sphere.radius < std::numeric_limits<double>::infinity())) seed.position = 0.25 * (p[0] + p[1] + p[2] + p[3]);
-  if (place) seed.position = place->position;
-  const double length = place ? place->length : length_at(seed.position);
+  if (location) seed.position = location->position;
+  const double length = location ? location->length : length_at(seed.position);
   seed.room = {.to_points = k_least_distance * length, .to_corners = k_corner_distance * length, .to_boundary = k_boundary_height * length};
   return seed;
 }

@@ -39,25 +39,25 @@ std::array<std::uint32_t, 3> corners_of(const Corners& nodes, std::size_t corner
   return {nodes[k_face[corner][0]], nodes[k_face[corner][1]], nodes[k_face[corner][2]]};
 }
 
-struct BadPlaces {
+struct BadLocations {
   std::int64_t count = 0;
   std::vector<std::uint32_t> tets;  ///< the first few
   void add(std::uint32_t t) {
-    if (++count <= static_cast<std::int64_t>(k_max_places)) tets.push_back(t);
+    if (++count <= static_cast<std::int64_t>(k_max_locations)) tets.push_back(t);
   }
 };
 
-BadPlaces joined(BadPlaces a, const BadPlaces& b) {
+BadLocations joined(BadLocations a, const BadLocations& b) {
   a.count += b.count;
   for (const std::uint32_t t : b.tets)
-    if (a.tets.size() < k_max_places) a.tets.push_back(t);
+    if (a.tets.size() < k_max_locations) a.tets.push_back(t);
   return a;
 }
 
-void throw_if_any(const BadPlaces& bad, const TetMesh& mesh, const std::string& what) {
+void throw_if_any(const BadLocations& bad, const TetMesh& mesh, const std::string& what) {
   if (bad.count == 0) return;
   ErrorInfo error{.code = ErrorCode::tetra_result_invalid, .attempted = "connecting tetrahedra", .problem = std::to_string(bad.count) + " " + what};
-  error.n_places = bad.count;
+  error.n_locations = bad.count;
   for (const std::uint32_t t : bad.tets) {
     Vec3 sum;
     double n = 0.0;
@@ -66,7 +66,7 @@ void throw_if_any(const BadPlaces& bad, const TetMesh& mesh, const std::string& 
       sum += mesh.points[v];
       n += 1.0;
     }
-    error.places.push_back({n > 0.0 ? sum / n : sum, "tetrahedron " + std::to_string(t)});
+    error.locations.push_back({n > 0.0 ? sum / n : sum, "tetrahedron " + std::to_string(t)});
   }
   throw Error(std::move(error));
 }
@@ -103,10 +103,10 @@ TetMesh connect(std::vector<Vec3> points, std::span<const Corners> tetrahedra, c
   const auto is_bad = [&](const Corners& v) {
     return std::ranges::any_of(v, [&](std::uint32_t i) { return i >= p.size(); }) || orient3d(p[v[0]], p[v[1]], p[v[2]], p[v[3]]) <= 0;
   };
-  const BadPlaces not_positive = parallel_reduce(
-      context, mesh.nodes.size(), BadPlaces{},
+  const BadLocations not_positive = parallel_reduce(
+      context, mesh.nodes.size(), BadLocations{},
       [&](std::size_t begin, std::size_t end) {
-        BadPlaces bad;
+        BadLocations bad;
         for (std::size_t t = begin; t < end; ++t)
           if (is_bad(mesh.nodes[t])) bad.add(static_cast<std::uint32_t>(t));
         return bad;
@@ -116,10 +116,10 @@ TetMesh connect(std::vector<Vec3> points, std::span<const Corners> tetrahedra, c
 
   mesh.neighbours.assign(mesh.nodes.size(), {k_none, k_none, k_none, k_none});
   const FacesByNode sorted = sort_by_lowest_node(mesh);
-  const BadPlaces crowded = parallel_reduce(
-      context, p.size(), BadPlaces{},
+  const BadLocations crowded = parallel_reduce(
+      context, p.size(), BadLocations{},
       [&](std::size_t begin, std::size_t end) {
-        BadPlaces bad;
+        BadLocations bad;
         std::vector<FaceAtNode> faces;
         for (std::size_t v = begin; v < end; ++v) {
           faces.clear();

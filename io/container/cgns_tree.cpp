@@ -25,13 +25,13 @@ NumberKind kind_of(const CgnsNode& node, const std::string& source) {
 
 }  // namespace
 
-const CgnsNode* CgnsNode::find(std::string_view wanted) const {
-  const auto found = std::find_if(children.begin(), children.end(), [&](const CgnsNode& child) { return child.name == wanted; });
+const CgnsNode* CgnsNode::find(std::string_view expected) const {
+  const auto found = std::find_if(children.begin(), children.end(), [&](const CgnsNode& child) { return child.name == expected; });
   return found == children.end() ? nullptr : &*found;
 }
 
-const CgnsNode* CgnsNode::find_label(std::string_view wanted) const {
-  const auto found = std::find_if(children.begin(), children.end(), [&](const CgnsNode& child) { return child.label == wanted; });
+const CgnsNode* CgnsNode::find_label(std::string_view expected) const {
+  const auto found = std::find_if(children.begin(), children.end(), [&](const CgnsNode& child) { return child.label == expected; });
   return found == children.end() ? nullptr : &*found;
 }
 
@@ -46,7 +46,7 @@ const std::vector<std::string>& cgns_labels_beside_the_mesh() {
 CgnsTree::CgnsTree(Borrowed<const ContainerImage> image) : image_(image), root_(node_of(image->root())) {}
 
 CgnsNode CgnsTree::node_of(const ContainerNode& group) const {
-  CgnsNode node{.path = group.path, .name = group.name, .place = &group};
+  CgnsNode node{.path = group.path, .name = group.name, .location = &group};
   const auto text_of = [&](const char* attribute) {
     const NumberArray* const found = group.attribute(attribute);
     if (!found || found->kind != NumberKind::text)
@@ -67,7 +67,7 @@ CgnsNode CgnsTree::node_of(const ContainerNode& group) const {
 NumberArray CgnsTree::data(const CgnsNode& node) const {
   if (node.type == "LK") throw_unsupported(source(), node.path + " is a link to another file", k_link_hint);
   if (node.type == "MT") return {.kind = NumberKind::text, .extents = {0}, .source = source(), .where = node.path};
-  NumberArray array = image_.data(image_.child(*node.place, k_data));
+  NumberArray array = image_.data(image_.child(*node.location, k_data));
   array.where = node.path;
   const NumberKind kind = kind_of(node, source());
   if (kind == NumberKind::text && byte_size(array.kind) == 1) array.kind = kind;

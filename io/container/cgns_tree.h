@@ -18,7 +18,7 @@ struct CgnsNode {
   std::string label;  ///< "Elements_t"
   std::string type;   ///< "I4", "MT" (no data), "LK" (a link to another file)
   std::vector<CgnsNode> children;
-  const ContainerNode* place = nullptr;  ///< the node in the container
+  const ContainerNode* location = nullptr;  ///< the node in the container
 
   const CgnsNode* find(std::string_view name) const;
   /// Returns the first child with that label.

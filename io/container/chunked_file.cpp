@@ -80,18 +80,18 @@ void ChunkedWriter::pack(std::string_view name, NumberType type, std::uint32_t n
         const std::uint64_t begin = c * per_chunk, end = std::min(begin + per_chunk, n_values);
         const std::size_t n_bytes = (end - begin) * size;
         const int bound = LZ4_compressBound(static_cast<int>(n_bytes));
-        char* const place = out.reserve(static_cast<std::size_t>(bound) + 2 * n_bytes);  // planes and values are in the same buffer behind the packed bytes;
-                                                                                         // the buffer is reused, so its pages stay allocated
-        char* const planes = place + bound;
+        char* const location = out.reserve(static_cast<std::size_t>(bound) + 2 * n_bytes);  // planes and values are in the same buffer behind the packed bytes;
+                                                                                            // the buffer is reused, so its pages stay allocated
+        char* const planes = location + bound;
         const char* const values = find(begin, end, planes + n_bytes);
         gather_planes(values, end - begin, size, planes);
-        const int n_packed = LZ4_compress_default(planes, place, static_cast<int>(n_bytes), bound);
+        const int n_packed = LZ4_compress_default(planes, location, static_cast<int>(n_bytes), bound);
         if (n_packed > 0 && static_cast<std::size_t>(n_packed) < n_bytes - n_bytes / k_gain) {
-          out.end_at(place + n_packed);
+          out.end_at(location + n_packed);
           chunks[c].codec = k_lz4_planes;
         } else {
-          std::memcpy(place, values, n_bytes);
-          out.end_at(place + n_bytes);
+          std::memcpy(location, values, n_bytes);
+          out.end_at(location + n_bytes);
           chunks[c].codec = k_plain;
         }
         chunks[c].packed_bytes = out.size();
@@ -135,12 +135,12 @@ void ChunkedWriter::finish(std::uint32_t version) {
   std::string directory;
   append_number(directory, n_arrays_);
   directory += directory_;
-  const std::uint64_t place = file_.size();
+  const std::uint64_t location = file_.size();
   file_.append(directory);
   std::string head(k_magic);
   append_number(head, version);
   append_number(head, k_byte_order_mark);
-  append_number(head, place);
+  append_number(head, location);
   append_number(head, std::uint64_t{directory.size()});
   append_number(head, hash_bytes(directory));
   append_number(head, file_.size());
@@ -160,7 +160,7 @@ ChunkedReader::ChunkedReader(Borrowed<const FileBuffer> buffer) : buffer_(buffer
                       "the file has version " + std::to_string(version) + " of the container, this program reads up to " + std::to_string(k_chunked_version),
                       "read the file with a newer version of sterna");
   if (head.take<std::uint32_t>() != k_byte_order_mark) head.fail("found another byte order, expected little endian");
-  const auto place = head.take<std::uint64_t>(), n_bytes = head.take<std::uint64_t>(), hash = head.take<std::uint64_t>(),
+  const auto location = head.take<std::uint64_t>(), n_bytes = head.take<std::uint64_t>(), hash = head.take<std::uint64_t>(),
              file_bytes = head.take<std::uint64_t>();
   const auto head_hash = head.take<std::uint64_t>();
   if (!is_intact(text.substr(0, k_hashed_head_bytes), head_hash))
@@ -168,12 +168,13 @@ ChunkedReader::ChunkedReader(Borrowed<const FileBuffer> buffer) : buffer_(buffer
   if (file_bytes != text.size())
     throw_malformed(buffer_.source, "byte 48", "found " + std::to_string(text.size()) + " bytes in the file, expected " + std::to_string(file_bytes),
                     "the file may have been cut short: copy or write it again");
-  if (place < k_head_bytes || place > text.size() || n_bytes != text.size() - place)
-    throw_malformed(buffer_.source, "byte 24",
-                    "found the directory at byte " + std::to_string(place) + " with " + std::to_string(n_bytes) + " bytes, expected it to end with the file");
-  if (!is_intact(text.substr(place), hash))
-    throw_malformed(buffer_.source, "byte " + std::to_string(place), "the directory is damaged: its hash does not match", "copy or write the file again");
-  read_directory(place, text.size());
+  if (location < k_head_bytes || location > text.size() || n_bytes != text.size() - location)
+    throw_malformed(
+        buffer_.source, "byte 24",
+        "found the directory at byte " + std::to_string(location) + " with " + std::to_string(n_bytes) + " bytes, expected it to end with the file");
+  if (!is_intact(text.substr(location), hash))
+    throw_malformed(buffer_.source, "byte " + std::to_string(location), "the directory is damaged: its hash does not match", "copy or write the file again");
+  read_directory(location, text.size());
 }
 
 void ChunkedReader::read_directory(std::uint64_t begin, std::uint64_t end) {
@@ -235,23 +236,23 @@ void ChunkedReader::read(std::string_view name, char* to, const RunContext& cont
                           "chunk " + std::to_string(c) + " of array " + quoted_excerpt(name) + " is damaged: " + what, "copy or write the file again");
         };
         if (!is_intact(packed, chunk.hash)) damaged("its hash does not match");
-        char* const place = to + begin * size;
+        char* const location = to + begin * size;
         if (chunk.codec == k_plain) {
-          std::memcpy(place, packed.data(), n * size);
+          std::memcpy(location, packed.data(), n * size);
           return;
         }
         const auto planes = std::make_unique_for_overwrite<char[]>(n * size);
         if (LZ4_decompress_safe(packed.data(), planes.get(), static_cast<int>(packed.size()), static_cast<int>(n * size)) != static_cast<int>(n * size))
           damaged("LZ4 cannot decompress it");
-        scatter_planes(planes.get(), n, size, place);
+        scatter_planes(planes.get(), n, size, location);
       },
       1);
 }
 
 void ChunkedReader::fail(std::string_view name, const std::string& problem) const {
   const auto found = arrays_.find(name);
-  const std::uint64_t place = found == arrays_.end() || found->second.chunks.empty() ? k_head_bytes : found->second.chunks[0].offset;
-  throw_malformed(buffer_.source, "byte " + std::to_string(place), "array " + quoted_excerpt(name) + ": " + problem);
+  const std::uint64_t location = found == arrays_.end() || found->second.chunks.empty() ? k_head_bytes : found->second.chunks[0].offset;
+  throw_malformed(buffer_.source, "byte " + std::to_string(location), "array " + quoted_excerpt(name) + ": " + problem);
 }
 
 }  // namespace sterna::io

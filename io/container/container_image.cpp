@@ -13,7 +13,7 @@ using wire::NodeRecord;
 using wire::Role;
 
 /// Returns true if `where` is a valid location from the helper: a path, a variable or an attribute (by name or number), or the whole file.
-bool is_place(std::string_view where) {
+bool is_location(std::string_view where) {
   if (where.starts_with('/') || where == "the file" || where == "the head of the file") return true;
   for (const std::string_view begin : {"variable ", "attribute "})
     if (where.starts_with(begin) && where.size() > begin.size())
@@ -59,14 +59,14 @@ class ImageReader {
 
   [[noreturn]] void throw_outcome() const {
     const std::string where(text(header_.where)), problem(text(header_.problem)), hint(text(header_.hint));
-    if (!is_place(where) || problem.empty()) fail("the file was rejected without location or reason");
+    if (!is_location(where) || problem.empty()) fail("the file was rejected without location or reason");
     if (header_.outcome == wire::Outcome::unsupported) throw_unsupported(source_, where + ": " + problem, hint);
     throw_malformed(source_, where, problem, hint);
   }
 
-  std::string_view text(const wire::Text& place) const {
-    if (place.begin > text_.size() || place.size > text_.size() - place.begin) fail("a string exceeds the text block");
-    return text_.substr(place.begin, place.size);
+  std::string_view text(const wire::Text& location) const {
+    if (location.begin > text_.size() || location.size > text_.size() - location.begin) fail("a string exceeds the text block");
+    return text_.substr(location.begin, location.size);
   }
 
   ContainerValues values(const NodeRecord& record, std::string where) const {
@@ -117,13 +117,13 @@ class ImageReader {
 
 }  // namespace
 
-const ContainerNode* ContainerNode::find(std::string_view wanted) const {
-  const auto found = std::find_if(children.begin(), children.end(), [&](const ContainerNode& child) { return child.name == wanted; });
+const ContainerNode* ContainerNode::find(std::string_view expected) const {
+  const auto found = std::find_if(children.begin(), children.end(), [&](const ContainerNode& child) { return child.name == expected; });
   return found == children.end() ? nullptr : &*found;
 }
 
-const NumberArray* ContainerNode::attribute(const std::string& wanted) const {
-  const auto found = attributes.find(wanted);
+const NumberArray* ContainerNode::attribute(const std::string& expected) const {
+  const auto found = attributes.find(expected);
   return found == attributes.end() || found->second.trouble != wire::Trouble::none ? nullptr : &found->second.array;
 }
 

@@ -48,14 +48,14 @@ std::size_t ffa_value_size(char type) {
 }
 
 std::int64_t FfaNode::integer(std::uint64_t row, std::uint64_t column) const {
-  const std::uint64_t i = place_of(row, column);
+  const std::uint64_t i = location_of(row, column);
   if (is_ascii_) return integers_[i];
   return type == 'J' ? number_at<std::int64_t>(buffer_->text(), data_ + i * 8, order_) : number_at<std::int32_t>(buffer_->text(), data_ + i * 4, order_);
 }
 
 double FfaNode::real(std::uint64_t row, std::uint64_t column) const {
   if (is_integer()) return static_cast<double>(integer(row, column));
-  const std::uint64_t i = place_of(row, column);
+  const std::uint64_t i = location_of(row, column);
   if (is_ascii_) return reals_[i];
   return type == 'D' ? number_at<double>(buffer_->text(), data_ + i * 8, order_)
                      : static_cast<double>(number_at<float>(buffer_->text(), data_ + i * 4, order_));
@@ -74,13 +74,13 @@ const FfaNode& FfaNode::at(std::string_view child) const {
   return *found;
 }
 
-std::string FfaNode::place() const {
+std::string FfaNode::location() const {
   if (!is_ascii_) return "byte " + std::to_string(begin_);
   const std::string_view before = buffer_->text().substr(0, begin_);
   return "line " + std::to_string(1 + std::count(before.begin(), before.end(), '\n'));
 }
 
-void FfaNode::fail(const std::string& problem) const { throw_malformed(buffer_->source, place(), "node " + quoted_excerpt(name) + ": " + problem); }
+void FfaNode::fail(const std::string& problem) const { throw_malformed(buffer_->source, location(), "node " + quoted_excerpt(name) + ": " + problem); }
 
 /// Pre-order parser of nodes. A file of n bytes has at most n / 32 nodes, so memory is proportional to the file size.
 class FfaParser {

@@ -42,12 +42,12 @@ class FfaNode {
   /// \throws Error(file_malformed) if there is none
   const FfaNode& at(std::string_view child) const;
   /// Returns the location for messages: "byte 120" or "line 7".
-  std::string place() const;
+  std::string location() const;
   [[noreturn]] void fail(const std::string& problem) const;
 
  private:
   friend class FfaParser;
-  std::uint64_t place_of(std::uint64_t row, std::uint64_t column) const { return column * n_rows + row; }
+  std::uint64_t location_of(std::uint64_t row, std::uint64_t column) const { return column * n_rows + row; }
 
   const FileBuffer* buffer_ = nullptr;
   std::size_t begin_ = 0;  ///< offset of the node, for messages

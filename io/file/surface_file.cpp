@@ -15,17 +15,17 @@
 namespace sterna::io {
 namespace {
 
-struct PlaceHash {
-  std::size_t operator()(const std::array<std::uint64_t, 3>& place) const {
+struct LocationHash {
+  std::size_t operator()(const std::array<std::uint64_t, 3>& location) const {
     constexpr std::uint64_t k_odd = 0x9e3779b97f4a7c15u;  // 2^64 over the golden ratio: spreads the bits
     std::uint64_t hash = 0;
-    for (const std::uint64_t word : place) hash = (std::rotl(hash, 23) ^ word) * k_odd;
+    for (const std::uint64_t word : location) hash = (std::rotl(hash, 23) ^ word) * k_odd;
     return hash ^ (hash >> 32);
   }
 };
 
 /// Returns a hash key of a position in which positive and negative zero are equal.
-std::array<std::uint64_t, 3> place_of(const Vec3& p) {
+std::array<std::uint64_t, 3> location_of(const Vec3& p) {
   return {std::bit_cast<std::uint64_t>(p.x + 0.0), std::bit_cast<std::uint64_t>(p.y + 0.0), std::bit_cast<std::uint64_t>(p.z + 0.0)};
 }
 
@@ -101,9 +101,9 @@ TriMesh to_tri_mesh(const SurfaceSoup& soup) {
   std::vector<VertexId> vertex_of_point;
   vertex_of_point.reserve(soup.points.size());
   if (has_separate_corners(soup)) {
-    std::unordered_map<std::array<std::uint64_t, 3>, VertexId, PlaceHash> vertex_at;
+    std::unordered_map<std::array<std::uint64_t, 3>, VertexId, LocationHash> vertex_at;
     for (const Vec3& p : soup.points) {
-      const auto [entry, is_new] = vertex_at.try_emplace(place_of(p));
+      const auto [entry, is_new] = vertex_at.try_emplace(location_of(p));
       if (is_new) entry->second = mesh.points.push_back(p);
       vertex_of_point.push_back(entry->second);
     }

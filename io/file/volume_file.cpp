@@ -28,7 +28,7 @@ void complete_boundary(HybridMesh& mesh, const std::string& source, Incomplete i
   const std::optional<OpenFaces> open = open_faces_of(mesh, source, context);
   if (!open || open->size() == 0) return;
   const bool has_none = mesh.boundary_triangles.empty() && mesh.boundary_quads.empty();
-  const std::string first = format_point(open->first_place(mesh));
+  const std::string first = format_point(open->first_location(mesh));
   if (has_none || incomplete == Incomplete::completed) {
     const PatchId patch = add_boundary(mesh, *open, k_boundary_name);
     context.warn(source + ": " + (has_none ? "the file has no boundary faces" : "boundary faces are missing, the first at " + first) + "; the " +

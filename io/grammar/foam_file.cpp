@@ -76,9 +76,9 @@ std::string_view FoamFile::token() {
   return found;
 }
 
-void FoamFile::expect(std::string_view wanted) {
+void FoamFile::expect(std::string_view required) {
   const std::string_view found = token();
-  if (found != wanted) fail("found " + (found.empty() ? "the end of the file" : quoted_excerpt(found)) + ", expected \"" + std::string(wanted) + "\"");
+  if (found != required) fail("found " + (found.empty() ? "the end of the file" : quoted_excerpt(found)) + ", expected \"" + std::string(required) + "\"");
 }
 
 std::int64_t FoamFile::integer(std::string_view expected) {

@@ -38,7 +38,7 @@ class FoamFile {
   /// Returns the next word, string (without its quotes) or single character of ( ) { } ; ; empty at the end of the file.
   std::string_view token();
   /// Consumes the given token.
-  void expect(std::string_view wanted);
+  void expect(std::string_view required);
   std::uint64_t count(std::string_view expected, std::size_t min_bytes);
   std::int64_t integer(std::string_view expected);
   /// Throws an error located at the last token read.

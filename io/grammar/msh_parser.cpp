@@ -112,7 +112,7 @@ class MshParser {
     if (volume_groups_.size() > 1) regions_.add("regions of cells (physical volumes), which become one", volume_groups_.size());
     curved_.warn(scanner_.source(), context_);
     regions_.warn(scanner_.source(), context_);
-    lines_.tell(scanner_.source(), context_);
+    lines_.report(scanner_.source(), context_);
     return has_names_;
   }
 

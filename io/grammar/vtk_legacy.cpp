@@ -70,9 +70,9 @@ std::string unescaped(std::string_view text) {
 
 template <class T>
 void append_value(std::vector<char>& bytes, T value) {
-  const std::size_t place = bytes.size();
-  bytes.resize(place + sizeof(T));
-  std::memcpy(bytes.data() + place, &value, sizeof(T));
+  const std::size_t location = bytes.size();
+  bytes.resize(location + sizeof(T));
+  std::memcpy(bytes.data() + location, &value, sizeof(T));
 }
 
 /// Splits a block of cells, each with its number of nodes first: "3 0 1 2 4 2 3 5 6".
@@ -284,9 +284,9 @@ class LegacyParser {
 
   /// Returns true if that word follows. The position is unchanged, because the next data may be bytes.
   bool is_next(std::string_view word) {
-    const std::size_t place = scanner_.offset();
+    const std::size_t location = scanner_.offset();
     const bool is_there = equal_ignoring_case(scanner_.peek(), word);
-    scanner_.seek(place);
+    scanner_.seek(location);
     return is_there;
   }
 

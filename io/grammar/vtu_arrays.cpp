@@ -82,9 +82,9 @@ bool append_ascii(std::string_view text, std::vector<char>& bytes) {
     const auto [next, failure] = std::from_chars(at, end, value);
     if (failure != std::errc{} || (next != end && !is_space(*next))) return false;
     at = next;
-    const std::size_t place = bytes.size();
-    bytes.resize(place + sizeof(T));
-    std::memcpy(bytes.data() + place, &value, sizeof(T));
+    const std::size_t location = bytes.size();
+    bytes.resize(location + sizeof(T));
+    std::memcpy(bytes.data() + location, &value, sizeof(T));
   }
 }
 
@@ -102,7 +102,7 @@ bool unpack(std::string_view packed, bool is_lz4, char* to, std::size_t n) {
 /// A compressed block and the destination of its bytes.
 struct Block {
   std::string_view packed;
-  std::size_t place = 0;
+  std::size_t location = 0;
   std::size_t size = 0;
 };
 
@@ -207,23 +207,23 @@ std::vector<char> VtuDecoder::decode_blocks(std::string_view encoded, const XmlT
     fail(tag, "found " + std::to_string(encoded.size()) + " bytes, too few for " + std::to_string(n_blocks) + " blocks");
   std::vector<Block> blocks;
   std::uint64_t at = (3 + n_blocks) * word_size_;
-  std::size_t place = 0;
+  std::size_t location = 0;
   for (std::uint64_t i = 0; i < n_blocks; ++i) {
     const std::uint64_t packed = header_word(encoded, 3 + i, tag);
     const std::uint64_t size = i + 1 == n_blocks ? last_size : block_size;
     if (at > encoded.size() || packed > encoded.size() - at) fail(tag, "block " + std::to_string(i) + " reaches beyond the end of the data");
     if (size > k_array_expansion_floor + k_max_zlib_expansion * packed)
       fail(tag, "block " + std::to_string(i) + " claims to unpack to " + std::to_string(size) + " bytes");
-    blocks.push_back({.packed = encoded.substr(at, packed), .place = place, .size = size});
+    blocks.push_back({.packed = encoded.substr(at, packed), .location = location, .size = size});
     at += packed;
-    place += size;
+    location += size;
   }
-  std::vector<char> bytes(place);
+  std::vector<char> bytes(location);
   parallel_for(
       context_, blocks.size(),
       [&](std::size_t i) {
         const Block& block = blocks[i];
-        if (!unpack(block.packed, packing_ == Packing::lz4, bytes.data() + block.place, block.size)) fail(tag, "block " + std::to_string(i) + " is damaged");
+        if (!unpack(block.packed, packing_ == Packing::lz4, bytes.data() + block.location, block.size)) fail(tag, "block " + std::to_string(i) + " is damaged");
       },
       1);
   return bytes;

@@ -98,26 +98,26 @@ std::string head(const VtuDocument& document, const std::vector<std::uint64_t>& 
 
 void pack_zlib(const VtuArray& array, const char* raw, std::size_t n_bytes, ByteBuffer& out) {
   uLongf n_packed = compressBound(static_cast<uLong>(n_bytes));
-  char* const place = out.reserve(n_packed);
-  const int state = compress2(reinterpret_cast<Bytef*>(place), &n_packed, reinterpret_cast<const Bytef*>(raw), static_cast<uLong>(n_bytes), k_zlib_level);
+  char* const location = out.reserve(n_packed);
+  const int state = compress2(reinterpret_cast<Bytef*>(location), &n_packed, reinterpret_cast<const Bytef*>(raw), static_cast<uLong>(n_bytes), k_zlib_level);
   if (state != Z_OK)
     throw Error({.code = ErrorCode::internal, .attempted = "compressing the array " + array.name, .problem = "zlib answers " + std::to_string(state)});
-  out.end_at(place + n_packed);
+  out.end_at(location + n_packed);
 }
 
 /// Compresses to a raw LZ4 block, not a frame. \pre n_bytes <= k_vtu_block, far below LZ4's limit of 2 GB
 void pack_lz4(const char* raw, std::size_t n_bytes, ByteBuffer& out) {
   const int n_most = LZ4_compressBound(static_cast<int>(n_bytes));
-  char* const place = out.reserve(static_cast<std::size_t>(n_most));
-  out.end_at(place + LZ4_compress_default(raw, place, static_cast<int>(n_bytes), n_most));
+  char* const location = out.reserve(static_cast<std::size_t>(n_most));
+  out.end_at(location + LZ4_compress_default(raw, location, static_cast<int>(n_bytes), n_most));
 }
 
 void compress_block(const VtuArray& array, VtuPacking packing, std::uint64_t begin, std::uint64_t end, ByteBuffer& out) {
   const std::size_t n_bytes = (end - begin) * size_of(array.type);
   if (packing == VtuPacking::none) {
-    char* const place = out.reserve(n_bytes);
-    array.fill(begin, end, place);
-    out.end_at(place + n_bytes);
+    char* const location = out.reserve(n_bytes);
+    array.fill(begin, end, location);
+    out.end_at(location + n_bytes);
     return;
   }
   const auto raw = std::make_unique_for_overwrite<char[]>(n_bytes);
@@ -137,7 +137,7 @@ void append_array(AtomicFile& file, const VtuArray& array, VtuPacking packing, c
   header[2] = array.n_values % per_block * size_of(array.type);
   if (packing == VtuPacking::none) header.assign(1, array.n_values * size_of(array.type));
   const auto header_bytes = [&] { return std::string_view(reinterpret_cast<const char*>(header.data()), header.size() * sizeof(header[0])); };
-  const std::uint64_t header_place = file.size();
+  const std::uint64_t header_location = file.size();
   file.append(header_bytes());
   write_ordered(
       file, n_blocks,
@@ -146,7 +146,7 @@ void append_array(AtomicFile& file, const VtuArray& array, VtuPacking packing, c
         if (packing != VtuPacking::none) header[3 + block] = out.size();
       },
       context);
-  file.overwrite(header_place, header_bytes());
+  file.overwrite(header_location, header_bytes());
 }
 
 }  // namespace

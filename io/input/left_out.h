@@ -27,7 +27,7 @@ class LeftOut {
   void warn(const std::string& source, const RunContext& context) const {
     if (!empty()) context.warn(source + ": left out: " + text());
   }
-  void tell(const std::string& source, const RunContext& context) const {
+  void report(const std::string& source, const RunContext& context) const {
     if (!empty()) context.info(source + ": left out: " + text());
   }
 

@@ -105,8 +105,8 @@ class CellBuilder {
     for (const LocalFace& local : cell_faces(kind)) {
       std::array<std::uint32_t, 4> nodes;
       for (std::size_t k = 0; k < local.size; ++k) nodes[k] = nodes_[local.nodes[k]];
-      const std::span<const std::uint32_t> wanted(nodes.data(), local.size);
-      if (std::none_of(faces.begin(), faces.begin() + n_faces, [&](const OutwardFace& f) { return is_same_cycle(wanted, f.span()); })) return false;
+      const std::span<const std::uint32_t> expected(nodes.data(), local.size);
+      if (std::none_of(faces.begin(), faces.begin() + n_faces, [&](const OutwardFace& f) { return is_same_cycle(expected, f.span()); })) return false;
     }
     return true;
   }

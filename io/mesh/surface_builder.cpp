@@ -53,7 +53,7 @@ SurfaceSoup SurfaceBuilder::finish(const RunContext& context, bool drop_unused_p
   compact_patches();
   if (n_not_finite_ > 0)
     context.warn(soup_.source + ": " + std::to_string(n_not_finite_) +
-                 " polygons have a corner whose coordinates are nan or infinite and are left out, the first is " + not_finite_place_ +
+                 " polygons have a corner whose coordinates are nan or infinite and are left out, the first is " + not_finite_location_ +
                  ". The surface has holes there; repair or --auto closes them");
   return std::move(soup_);
 }
@@ -64,10 +64,10 @@ bool SurfaceBuilder::is_finite_polygon(std::span<const std::uint32_t> corners) c
 
 void SurfaceBuilder::note_not_finite(std::size_t number, std::span<const std::uint32_t> corners) {
   if (n_not_finite_++ > 0) return;
-  not_finite_place_ = "polygon " + std::to_string(number + 1) + " of " + std::to_string(n_polygons());
+  not_finite_location_ = "polygon " + std::to_string(number + 1) + " of " + std::to_string(n_polygons());
   for (const std::uint32_t corner : corners) {
     if (!is_finite(soup_.points[corner])) continue;
-    not_finite_place_ += ", beside " + format_point(soup_.points[corner]);
+    not_finite_location_ += ", beside " + format_point(soup_.points[corner]);
     return;
   }
 }

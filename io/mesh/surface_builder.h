@@ -63,8 +63,8 @@ class SurfaceBuilder {
   std::map<std::string, std::uint32_t, std::less<>> patch_names_;
   std::uint32_t current_patch_ = 0;
   bool has_not_finite_ = false;
-  std::size_t n_not_finite_ = 0;  ///< number of polygons with a corner that is not finite
-  std::string not_finite_place_;  ///< location of the first such polygon: "polygon 7 of 12, beside (1, 0, 2)"
+  std::size_t n_not_finite_ = 0;     ///< number of polygons with a corner that is not finite
+  std::string not_finite_location_;  ///< location of the first such polygon: "polygon 7 of 12, beside (1, 0, 2)"
   std::vector<Polygon> polygons_;
   std::vector<std::uint32_t> corners_;
 };

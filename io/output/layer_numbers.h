@@ -27,11 +27,11 @@ class LayerNumbers {
   std::uint64_t first(std::uint64_t i) const { return first_.empty() ? i * per_column_ : first_[i]; }
   std::uint64_t n_layers(std::uint64_t i) const { return first_.empty() ? per_column_ : first_[i + 1] - first_[i]; }
 
-  struct Place {
+  struct Location {
     std::uint64_t i, layer;  ///< i-th column; layer 0 is the column's first item, at the wall
   };
   /// \pre number < size()
-  Place at(std::uint64_t number) const {
+  Location at(std::uint64_t number) const {
     if (first_.empty()) return {number / per_column_, number % per_column_};
     const auto i = static_cast<std::uint64_t>(std::upper_bound(first_.begin(), first_.end(), number) - first_.begin()) - 1;
     return {i, number - first_[i]};

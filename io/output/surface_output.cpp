@@ -92,7 +92,7 @@ void write_file(const std::filesystem::path& path, const std::vector<OutputSecti
   file.commit();
 }
 
-void tell_numbered_patches(const TriMesh& mesh, std::string_view format, const RunContext& context) {
+void report_numbered_patches(const TriMesh& mesh, std::string_view format, const RunContext& context) {
   std::string text;
   for (const PatchId patch : mesh.patches.ids())
     if (const std::string number = std::to_string(patch.value() + 1); mesh.patches[patch].name != "patch_" + number)

@@ -61,6 +61,6 @@ void require_single_precision(const TriMesh& mesh, std::string_view format, cons
 void write_file(const std::filesystem::path& path, const std::vector<OutputSection>& sections, const RunContext& context);
 
 /// Logs the names of the patches by number, for a format that stores only numbers.
-void tell_numbered_patches(const TriMesh& mesh, std::string_view format, const RunContext& context);
+void report_numbered_patches(const TriMesh& mesh, std::string_view format, const RunContext& context);
 
 }  // namespace sterna::io

@@ -7,7 +7,7 @@
 #include <map>
 #include <string>
 
-#include "io/read_container/image.h"
+#include "io/read_container/image_layout.h"
 
 namespace sterna::io::reader {
 namespace {

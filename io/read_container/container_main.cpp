@@ -13,7 +13,7 @@
 #include <new>
 #include <string>
 
-#include "io/read_container/image.h"
+#include "io/read_container/image_layout.h"
 
 namespace {
 

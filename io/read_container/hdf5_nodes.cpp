@@ -10,7 +10,7 @@
 #include <set>
 #include <string>
 
-#include "io/read_container/image.h"
+#include "io/read_container/image_layout.h"
 
 namespace sterna::io::reader {
 namespace {

@@ -7,7 +7,7 @@
 #include <map>
 #include <optional>
 
-#include "io/read_container/image.h"
+#include "io/read_container/image_layout.h"
 
 namespace sterna::io::reader {
 namespace {

@@ -160,7 +160,7 @@ SurfaceSoup read_cart3d(const std::filesystem::path& path, const RunContext& con
 }
 
 void write_cart3d(const TriMesh& mesh, const std::filesystem::path& path, const RunContext& context) {
-  tell_numbered_patches(mesh, "Cart3D", context);
+  report_numbered_patches(mesh, "Cart3D", context);
   write_file(path,
              {fixed_section(std::to_string(mesh.n_vertices()) + " " + std::to_string(mesh.n_triangles()) + "\n"), point_lines(mesh, ""),
               triangle_lines(mesh, "", 1), patch_number_lines(mesh)},
@@ -171,7 +171,7 @@ void write_cart3d_binary(const TriMesh& mesh, const std::filesystem::path& path,
   constexpr std::uint64_t k_most = std::numeric_limits<std::int32_t>::max() / 12;  // a record has 12 bytes per item
   require_count(std::max(mesh.n_vertices(), mesh.n_triangles()), k_most, "vertices or triangles", "binary Cart3D", path.string());
   require_single_precision(mesh, "binary Cart3D", path.string(), context);
-  tell_numbered_patches(mesh, "Cart3D", context);
+  report_numbered_patches(mesh, "Cart3D", context);
   constexpr std::endian k_order = std::endian::little;
   std::vector<OutputSection> sections;
   add_record(sections, 1, 8, [&mesh](std::uint64_t, char* at) {

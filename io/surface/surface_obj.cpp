@@ -99,7 +99,7 @@ const std::vector<NameChange>* choose_naming(const Faces& faces) {
 }
 
 /// Reports namings that are not used. A file may name its parts in several ways, but only one of them becomes the patches.
-void tell_other_namings(const Faces& faces, const std::vector<NameChange>* chosen, const std::string& source, const RunContext& context) {
+void report_other_namings(const Faces& faces, const std::vector<NameChange>* chosen, const std::string& source, const RunContext& context) {
   constexpr std::array<std::string_view, k_n_namings> k_words = {"groups", "objects", "materials"};
   const auto names_of = [](const std::vector<NameChange>& changes) {
     std::set<std::string_view> names;
@@ -146,9 +146,9 @@ SurfaceSoup read_obj(const std::filesystem::path& path, const RunContext& contex
                     "found vertex number " + std::to_string(highest.value + 1) + ", but the file has " + std::to_string(builder.n_points()) + " vertices");
 
   surfaces.warn(buffer.source, context);
-  others.tell(buffer.source, context);
+  others.report(buffer.source, context);
   const std::vector<NameChange>* const naming = choose_naming(faces);
-  tell_other_namings(faces, naming, buffer.source, context);
+  report_other_namings(faces, naming, buffer.source, context);
   constexpr std::string_view k_default_group = "default";  // the format's name for elements before any group
   if (naming) builder.set_patch(k_default_group);
   builder.reserve_polygons(faces.size());

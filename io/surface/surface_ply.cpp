@@ -361,7 +361,7 @@ SurfaceSoup read_ply(const std::filesystem::path& path, const RunContext& contex
   LeftOut left_out;
   for (const Element& element : header.elements)
     if (!element.is_face() && !element.is_vertex()) left_out.add("elements \"" + element.name + "\"", element.count);
-  has_strips ? left_out.warn(buffer.source, context) : left_out.tell(buffer.source, context);
+  has_strips ? left_out.warn(buffer.source, context) : left_out.report(buffer.source, context);
   SurfaceSoup soup = builder.finish(context);
   soup.has_names = has_patches;
   soup.single_precision = is_single;

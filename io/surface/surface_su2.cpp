@@ -39,7 +39,7 @@ class Su2SurfaceReader {
       read_elements(zone);
       has_names = has_names || !zone.markers.empty();
     }
-    tell_what_was_left_out();
+    report_left_out();
     SurfaceSoup soup = builder_.finish(context_, true);
     soup.has_names = has_names;
     soup.n_cells = n_cells_;
@@ -135,7 +135,7 @@ class Su2SurfaceReader {
     zone_ = {};
   }
 
-  void tell_what_was_left_out() const {
+  void report_left_out() const {
     if (zones_.size() > 1) context_.info("zones joined into one surface: " + std::to_string(zones_.size()));
     if (n_partition_markers_ > 0) context_.info("markers SEND_RECEIVE (boundaries of a partition) left out: " + std::to_string(n_partition_markers_));
     if (n_lines_ > 0) context_.warn(source_ + ": " + std::to_string(n_lines_) + " lines (type 3) in markers, which are not faces, are left out");

@@ -44,7 +44,7 @@ class PlcParser {
     }
     take_facets(equal_ignoring_case(unpacked.extension().string(), ".poly"));
     if (n_constraints_ > 0) context_.info(buffer_.source + ": points and segments within facets left out: " + std::to_string(n_constraints_));
-    tell_holes_and_regions();
+    report_holes_and_regions();
     SurfaceSoup soup = builder_.finish(context_);
     soup.has_names = has_markers_;
     return soup;
@@ -95,7 +95,7 @@ class PlcParser {
   }
 
   /// Reports the lists of holes and of regions that may follow the facets.
-  void tell_holes_and_regions() {
+  void report_holes_and_regions() {
     LeftOut left_out;
     for (const char* what : {"points in holes", "points in regions"}) {
       if (scanner_.at_end()) break;
@@ -181,7 +181,7 @@ OutputSection node_lines(const TriMesh& mesh) {
 
 void write(const TriMesh& mesh, const std::filesystem::path& path, bool is_poly, const RunContext& context) {
   require_count(std::max(mesh.n_vertices(), mesh.n_triangles()), std::numeric_limits<std::int32_t>::max(), "nodes or facets", "TetGen", path.string());
-  tell_numbered_patches(mesh, "TetGen", context);
+  report_numbered_patches(mesh, "TetGen", context);
   const OutputSection facets = items_section(mesh.n_triangles(), 16 + 4 * k_max_id_text, [&mesh, is_poly](std::uint64_t i, char* at) {
     if (is_poly) {
       at = put_integer_text(put_text(at, "1 0 "), patch_number(mesh, TriangleId(i)));

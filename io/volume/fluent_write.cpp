@@ -6,7 +6,7 @@
 #include "io/input/text_limits.h"
 #include "io/names/name_rules.h"
 #include "io/output/cell_sections.h"
-#include "io/output/mesh_faces.h"
+#include "io/output/face_connectivity.h"
 #include "io/output/section_output.h"
 #include "io/volume/fluent.h"
 

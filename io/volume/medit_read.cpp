@@ -53,7 +53,7 @@ class MeditReader {
     is_binary ? read_binary() : read_text();
     if (!has_vertices_)
       throw_malformed(buffer_.source, is_binary ? "byte " + std::to_string(text.size()) : "line " + std::to_string(scanner_.line()), "found no Vertices");
-    left_out_.tell(buffer_.source, context_);
+    left_out_.report(buffer_.source, context_);
     if (regions_.size() > 1)
       context_.warn(buffer_.source + ": the cells have " + std::to_string(regions_.size()) +
                     " references (regions), which are left out: the cells become one region");
@@ -214,9 +214,9 @@ class MeditReader {
 
   /// Reads the elements. \returns their number
   template <std::size_t N>
-  std::size_t read_rows(Table<N>& table, bool is_wanted, bool is_cells = false) {
+  std::size_t read_rows(Table<N>& table, bool is_needed, bool is_cells = false) {
     const std::size_t n = count(0, N + 1);
-    if (is_wanted) {
+    if (is_needed) {
       table.rows.reserve(table.rows.size() + n);
       table.starts.push_back({table.rows.size(), bytes_ ? bytes_->offset() : scanner_.offset()});
     }
@@ -231,7 +231,7 @@ class MeditReader {
       row.reference = integer("the reference of an element");
       if constexpr (N > 4) regions_.insert(row.reference);
       else if (is_cells) regions_.insert(row.reference);
-      if (is_wanted) table.rows.push_back(row);
+      if (is_needed) table.rows.push_back(row);
     }
     return n;
   }
@@ -241,14 +241,14 @@ class MeditReader {
     for (std::size_t i = 0; i < table.rows.size(); ++i)
       for (const NodeId node : table.rows[i].nodes)
         if (node.index() >= points_.size())
-          throw_malformed(buffer_.source, place_of(table, i),
+          throw_malformed(buffer_.source, location_of(table, i),
                           std::string(what) + " " + std::to_string(i + 1) + " has the vertex " + std::to_string(node.value() + 1ull) + ", there are " +
                               std::to_string(points_.size()));
   }
 
   /// Returns the location of a row: "line 12" or "byte 80".
   template <std::size_t N>
-  std::string place_of(const Table<N>& table, std::size_t i) {
+  std::string location_of(const Table<N>& table, std::size_t i) {
     const auto after =
         std::upper_bound(table.starts.begin(), table.starts.end(), i, [](std::size_t row, const SectionStart& start) { return row < start.first_row; });
     const SectionStart& start = *(after - 1);

@@ -56,22 +56,22 @@ class MeditWriter {
       raw("End\n");
     } else {
       number(static_cast<std::uint64_t>(k_medit_end), 4);
-      number(0, place_bytes());
+      number(0, offset_bytes());
     }
     flush();
     return std::move(sections_);
   }
 
  private:
-  std::size_t place_bytes() const { return version_ >= 3 ? 8 : 4; }
+  std::size_t offset_bytes() const { return version_ >= 3 ? 8 : 4; }
   std::size_t integer_bytes() const { return version_ >= 4 ? 8 : 4; }
-  std::uint64_t section_bytes(std::uint64_t n, std::uint64_t row_bytes) const { return n == 0 ? 0 : 4 + place_bytes() + integer_bytes() + n * row_bytes; }
+  std::uint64_t section_bytes(std::uint64_t n, std::uint64_t row_bytes) const { return n == 0 ? 0 : 4 + offset_bytes() + integer_bytes() + n * row_bytes; }
   std::uint64_t row_bytes(const MeditSection& section) const {
     return (section.n_nodes + 1) * integer_bytes() + (section.n_nodes == 0 ? 3 * sizeof(double) : 0);
   }
 
   std::uint64_t total_bytes() const {
-    std::uint64_t n = 8 + (4 + place_bytes() + 4) + (4 + place_bytes());
+    std::uint64_t n = 8 + (4 + offset_bytes() + 4) + (4 + offset_bytes());
     n += section_bytes(mesh_.points.size(), row_bytes(k_medit_vertices));
     n += section_bytes(mesh_.boundary_triangles.size(), row_bytes(k_medit_triangles)) + section_bytes(mesh_.boundary_quads.size(), row_bytes(k_medit_quads));
     for (const auto& [section, kind] : k_cell_sections) n += section_bytes(cells_.count(kind), row_bytes(section));
@@ -86,7 +86,7 @@ class MeditWriter {
     raw({bytes.data(), static_cast<std::size_t>(end - bytes.data())});
   }
   void flush() {
-    place_ += pending_.size();
+    offset_ += pending_.size();
     if (!pending_.empty()) sections_.push_back(fixed_section(std::move(pending_)));
     pending_.clear();
   }
@@ -94,7 +94,7 @@ class MeditWriter {
   void begin_section(std::int32_t code, std::uint64_t payload_bytes) {
     flush();
     number(static_cast<std::uint64_t>(code), 4);
-    number(place_ + 4 + place_bytes() + payload_bytes, place_bytes());
+    number(offset_ + 4 + offset_bytes() + payload_bytes, offset_bytes());
   }
 
   /// Adds rows written by put(at, i).
@@ -109,7 +109,7 @@ class MeditWriter {
     flush();
     rows.n_items = n;
     sections_.push_back(std::move(rows));
-    if (!is_text_) place_ += n * row_bytes(section);
+    if (!is_text_) offset_ += n * row_bytes(section);
   }
 
   char* put_integer(char* at, std::int64_t value, char separator) const {
@@ -167,7 +167,7 @@ class MeditWriter {
   CellSections cells_;
   bool is_text_ = false;
   int version_ = 0;
-  std::uint64_t place_ = 0;  ///< bytes before `pending_`
+  std::uint64_t offset_ = 0;  ///< bytes before `pending_`
   std::string pending_;
   std::vector<OutputSection> sections_;
 };

@@ -50,7 +50,7 @@ class CgnsReader {
 
   HybridMesh read() {
     const CgnsNode& base = find_base();
-    tell_other_bases(base);
+    report_other_bases(base);
     read_families(base);
     int n_zones = 0;
     for (const CgnsNode& node : base.children) {
@@ -94,7 +94,7 @@ class CgnsReader {
     return *found;
   }
 
-  void tell_other_bases(const CgnsNode& chosen) const {
+  void report_other_bases(const CgnsNode& chosen) const {
     std::string names;
     for (const CgnsNode& node : tree_.root().children)
       if (node.label == "CGNSBase_t" && &node != &chosen) names += (names.empty() ? "" : ", ") + node.path;
@@ -477,11 +477,11 @@ class CgnsReader {
     for (const auto& face : mesh_.boundary_triangles) is_used[face.patch.index()] = true;
     for (const auto& face : mesh_.boundary_quads) is_used[face.patch.index()] = true;
     Column<PatchId, Patch> kept;
-    std::vector<PatchId> place(mesh_.patches.size());
+    std::vector<PatchId> position(mesh_.patches.size());
     for (const PatchId patch : mesh_.patches.ids())
-      if (is_used[patch.index()]) place[patch.index()] = kept.push_back(mesh_.patches[patch]);
-    for (auto& face : mesh_.boundary_triangles) face.patch = place[face.patch.index()];
-    for (auto& face : mesh_.boundary_quads) face.patch = place[face.patch.index()];
+      if (is_used[patch.index()]) position[patch.index()] = kept.push_back(mesh_.patches[patch]);
+    for (auto& face : mesh_.boundary_triangles) face.patch = position[face.patch.index()];
+    for (auto& face : mesh_.boundary_quads) face.patch = position[face.patch.index()];
     mesh_.patches = std::move(kept);
   }
 

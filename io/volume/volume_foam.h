@@ -25,7 +25,7 @@ std::vector<std::filesystem::path> polymesh_files(const std::filesystem::path& p
 void require_foam_output(const std::filesystem::path& path);
 
 /// Tests as require_foam_output(); also throws if the parent folder of the case does not exist: missing folders are created only for the case itself.
-void require_foam_place(const std::filesystem::path& path);
+void require_foam_location(const std::filesystem::path& path);
 
 /// Reads text and binary files (labels of 32 and 64, scalars of 64 and 32 bits, either byte order), each optionally gzipped. Cells of 4 to 6 faces become
 /// tetrahedra, pyramids, prisms, hexahedra. The type of a patch (wall, symmetry, symmetryPlane) determines its kind. For the type `patch`, the kind is that of

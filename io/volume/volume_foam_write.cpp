@@ -11,7 +11,7 @@
 #include "io/names/name_rules.h"
 #include "io/output/atomic_folder.h"
 #include "io/output/cell_sections.h"
-#include "io/output/mesh_faces.h"
+#include "io/output/face_connectivity.h"
 #include "io/output/section_output.h"
 #include "io/volume/volume_foam.h"
 
@@ -125,7 +125,7 @@ class FoamWriter {
 
   void write_faces_compact(const std::filesystem::path& folder) const {
     std::vector<OutputSection> sections{fixed_section(header("faces", "faceCompactList", true))};
-    add_list(sections, face_places(), n_faces_ + 1);
+    add_list(sections, face_locations(), n_faces_ + 1);
     add_list(sections, face_labels(), n_face_nodes_);
     AtomicFile file(folder / "faces");
     write_sections(file, sections, context_.part("faces", 0.45, 0.7));
@@ -234,24 +234,24 @@ class FoamWriter {
   }
 
   /// Returns the offsets of the faces' nodes, and the end of the last.
-  std::vector<OutputSection> face_places() const {
+  std::vector<OutputSection> face_locations() const {
     std::vector<OutputSection> sections{{.n_items = faces_.n_cells(), .format = [this](std::uint64_t begin, std::uint64_t end, ByteBuffer& out) {
                                            char* at = out.reserve((end - begin) * k_most_foam_faces * sizeof(std::int32_t));
-                                           std::uint64_t place = faces_.internal_before(begin).nodes;
+                                           std::uint64_t position = faces_.internal_before(begin).nodes;
                                            faces_.for_each_internal(begin, end, [&](std::uint64_t, const CellFace& face) {
-                                             at = put_label(at, place);
-                                             place += face.size;
+                                             at = put_label(at, position);
+                                             position += face.size;
                                            });
                                            out.end_at(at);
                                          }}};
-    std::uint64_t place = faces_.n_internal_nodes();
+    std::uint64_t position = faces_.n_internal_nodes();
     const auto add = [&](std::uint64_t n, std::uint64_t size) {
-      sections.push_back({.n_items = n, .format = [this, first = place, size](std::uint64_t begin, std::uint64_t end, ByteBuffer& out) {
+      sections.push_back({.n_items = n, .format = [this, first = position, size](std::uint64_t begin, std::uint64_t end, ByteBuffer& out) {
                             char* at = out.reserve((end - begin) * sizeof(std::int32_t));
                             for (std::uint64_t i = begin; i < end; ++i) at = put_label(at, first + i * size);
                             out.end_at(at);
                           }});
-      place += n * size;
+      position += n * size;
     };
     for (const PatchId patch : mesh_.patches.ids()) {
       add(by_patch_.triangles(patch).size(), 3);
@@ -400,7 +400,7 @@ void require_foam_output(const std::filesystem::path& path) {
        .hint = "an OpenFOAM case has only one mesh: write each mesh to its own folder, or write to constant/polyMesh to replace the existing mesh"});
 }
 
-void require_foam_place(const std::filesystem::path& path) {
+void require_foam_location(const std::filesystem::path& path) {
   require_foam_output(path);
   const std::filesystem::path folder = polymesh_folder(path).parent_path().parent_path();
   const std::filesystem::path above = path.extension() == ".foam" ? folder : folder.parent_path();

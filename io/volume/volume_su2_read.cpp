@@ -182,14 +182,14 @@ void read_nodes(LineCursor& cursor, std::array<NodeId, N>& nodes, const std::arr
 }
 
 /// \param place position of the chunk's first item in each slot
-void read_chunk(const CellChunk& chunk, std::string_view source, std::size_t first_node, std::uint64_t n_nodes, SlotCounts place, HybridMesh& mesh) {
+void read_chunk(const CellChunk& chunk, std::string_view source, std::size_t first_node, std::uint64_t n_nodes, SlotCounts position, HybridMesh& mesh) {
   constexpr std::array<std::uint8_t, 8> k_same = {0, 1, 2, 3, 4, 5, 6, 7};
   LineCursor cursor(chunk.lines, source);
   for (std::uint64_t i = 0; i < chunk.lines.n_items; ++i) {
     const std::uint64_t item = chunk.lines.first_item + i;
     cursor.find_content();
     const std::size_t slot = read_slot(cursor, chunk.patch.is_valid(), item);
-    const std::uint64_t at = place[slot]++;
+    const std::uint64_t at = position[slot]++;
     const auto read = [&](auto& nodes, const std::array<std::uint8_t, 8>& order) { read_nodes(cursor, nodes, order, first_node, n_nodes, item); };
     switch (slot) {
       case static_cast<std::size_t>(CellKind::tetrahedron): read(mesh.tetrahedra[at], k_same); break;
@@ -208,13 +208,13 @@ void read_chunk(const CellChunk& chunk, std::string_view source, std::size_t fir
 
 void read_cells(const std::vector<CellChunk>& chunks, std::string_view source, std::size_t first_node, std::uint64_t n_nodes, HybridMesh& mesh,
                 const RunContext& context) {
-  std::vector<SlotCounts> places(chunks.size());
+  std::vector<SlotCounts> locations(chunks.size());
   parallel_for(
-      context, chunks.size(), [&](std::size_t c) { places[c] = count_slots(chunks[c], source); }, 1);
+      context, chunks.size(), [&](std::size_t c) { locations[c] = count_slots(chunks[c], source); }, 1);
   SlotCounts next = {mesh.tetrahedra.size(), mesh.pyramids.size(),           mesh.prisms.size(),
                      mesh.hexahedra.size(),  mesh.boundary_triangles.size(), mesh.boundary_quads.size()};
-  for (SlotCounts& place : places)
-    for (std::size_t s = 0; s < place.size(); ++s) place[s] = std::exchange(next[s], next[s] + place[s]);
+  for (SlotCounts& position : locations)
+    for (std::size_t s = 0; s < position.size(); ++s) position[s] = std::exchange(next[s], next[s] + position[s]);
   mesh.tetrahedra.resize(next[0]);
   mesh.pyramids.resize(next[1]);
   mesh.prisms.resize(next[2]);
@@ -222,7 +222,7 @@ void read_cells(const std::vector<CellChunk>& chunks, std::string_view source, s
   mesh.boundary_triangles.resize(next[4]);
   mesh.boundary_quads.resize(next[5]);
   parallel_for(
-      context, chunks.size(), [&](std::size_t c) { read_chunk(chunks[c], source, first_node, n_nodes, places[c], mesh); }, 1);
+      context, chunks.size(), [&](std::size_t c) { read_chunk(chunks[c], source, first_node, n_nodes, locations[c], mesh); }, 1);
 }
 
 void read_zone(const Zone& zone, std::string_view source, HybridMesh& mesh, const RunContext& context) {

@@ -149,35 +149,35 @@ std::string mapbc_text(const HybridMesh& mesh, const FacesByPatch& faces, const 
 /// Returns the coordinates as read from a single-precision file.
 std::vector<Point> in_single_precision(const HybridMesh& mesh, const RunContext& context) {
   const auto rounded = [](double value) { return static_cast<double>(static_cast<float>(value)); };
-  std::vector<Point> places(mesh.points.size());
-  parallel_for(context, places.size(), [&](std::size_t i) {
+  std::vector<Point> locations(mesh.points.size());
+  parallel_for(context, locations.size(), [&](std::size_t i) {
     const Point& p = mesh.points.raw()[i];
-    places[i] = {rounded(p.x), rounded(p.y), rounded(p.z)};
+    locations[i] = {rounded(p.x), rounded(p.y), rounded(p.z)};
   });
-  return places;
+  return locations;
 }
 
 /// Warns about the node displacement caused by single precision.
 /// \throws Error mesh_invalid if cells are flat or folded at the coordinates of the file.
 void require_single_precision_cells(const HybridMesh& mesh, const std::filesystem::path& path, const RunContext& context) {
-  const std::vector<Point> places = in_single_precision(mesh, context);
+  const std::vector<Point> locations = in_single_precision(mesh, context);
   const double moved = parallel_reduce(
-      context, places.size(), 0.0,
+      context, locations.size(), 0.0,
       [&](std::size_t begin, std::size_t end) {
         double largest = 0.0;
-        for (std::size_t i = begin; i < end; ++i) largest = std::max(largest, distance(mesh.points.raw()[i], places[i]));
+        for (std::size_t i = begin; i < end; ++i) largest = std::max(largest, distance(mesh.points.raw()[i], locations[i]));
         return largest;
       },
       [](double a, double b) { return std::max(a, b); });
   if (moved == 0.0) return;
-  LostCells lost = cells_lost_by_rounding(mesh, places, context);
+  LostCells lost = cells_lost_by_rounding(mesh, locations, context);
   if (lost.n > 0) {
     throw Error({.code = ErrorCode::mesh_invalid,
                  .attempted = "writing " + path.string(),
                  .problem = "single precision moves nodes by up to " + number_text(moved, 2) + " m, which makes " + std::to_string(lost.n) +
                             (lost.n == 1 ? " cell" : " cells") + " flat or folded",
-                 .places = std::move(lost.places),
-                 .n_places = lost.n,
+                 .locations = std::move(lost.locations),
+                 .n_locations = lost.n,
                  .hint = "write double precision: .lb8.ugrid, .b8.ugrid, .lb8l.ugrid or .b8l.ugrid"});
   }
   context.warn(path.string() + ": the file is single precision: nodes move by up to " + number_text(moved, 2) +

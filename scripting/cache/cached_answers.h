@@ -27,20 +27,20 @@ struct Transcript {
 };
 
 /// A function whose first values are known.
-class AskedFunction {
+class RecordedFunction {
  public:
-  AskedFunction(SizeFunction function, Transcript known) : function_(std::move(function)), transcript_(std::move(known)) {}
+  RecordedFunction(SizeFunction function, Transcript known) : function_(std::move(function)), transcript_(std::move(known)) {}
   double operator()(const Point& p) {
-    if (n_asked_ < transcript_.questions.size()) {
-      if (transcript_.questions[n_asked_] == p) return transcript_.answers[n_asked_++];
+    if (n_calls_ < transcript_.questions.size()) {
+      if (transcript_.questions[n_calls_] == p) return transcript_.answers[n_calls_++];
       is_as_known_ = false;  // cannot happen, because the points follow from the values; if it did, the function itself would give the right value
-      transcript_.questions.resize(n_asked_);
-      transcript_.answers.resize(n_asked_);
+      transcript_.questions.resize(n_calls_);
+      transcript_.answers.resize(n_calls_);
     }
     const double answer = function_(p);
     transcript_.questions.push_back(p);
     transcript_.answers.push_back(answer);
-    ++n_asked_;
+    ++n_calls_;
     return answer;
   }
   const Transcript& transcript() const { return transcript_; }
@@ -49,7 +49,7 @@ class AskedFunction {
  private:
   SizeFunction function_;
   Transcript transcript_;
-  std::size_t n_asked_ = 0;
+  std::size_t n_calls_ = 0;
   bool is_as_known_ = true;
 };
 
@@ -90,15 +90,15 @@ T cached_by_answers(const Reuse& reuse, std::string_view stage, std::string_view
     report_reuse(reuse, stage, what, context);
     return std::move(*value);
   }
-  AskedFunction asked(function, std::move(known));
-  T value = make([&asked](const Point& p) { return asked(p); });
-  if (!asked.is_as_known()) {
+  RecordedFunction requested(function, std::move(known));
+  T value = make([&requested](const Point& p) { return requested(p); });
+  if (!requested.is_as_known()) {
     context.warn(std::string(stage) + ": evaluated its function at other points than before: not cached");
     key.reset();
     return value;
   }
   const auto from = static_cast<std::ptrdiff_t>(n_of_key);
-  const Transcript& all = asked.transcript();
+  const Transcript& all = requested.transcript();
   const std::vector<Point> questions(all.questions.begin() + from, all.questions.end());
   const std::vector<double> answers(all.answers.begin() + from, all.answers.end());
   reuse.cache->store(

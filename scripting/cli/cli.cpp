@@ -64,7 +64,7 @@ struct Request {
   std::function<int(const CommandContext&)> execute;
   std::filesystem::path trouble;  ///< path of the picture: beside the output, or beside the input of commands that write nothing
   bool is_prompt = false;
-  bool tells_itself = false;  ///< the command prints the findings on the input as its result, so the log omits them unless it is verbose
+  bool prints_findings = false;  ///< the command prints the findings on the input as its result, so the log omits them unless it is verbose
 };
 
 void add_common_options(CLI::App& app, CommonSettings& common) {
@@ -396,7 +396,7 @@ void add_info_command(CLI::App& app, InfoCommand& info, Request& request) {
   command->add_flag("--json", info.is_json, "print JSON (schema sterna-info-1)");
   command->final_callback([&] {
     request.execute = [&](const CommandContext& context) { return execute(info, context); };
-    request.tells_itself = true;
+    request.prints_findings = true;
     request.trouble = beside(std::filesystem::path(info.input).filename());
   });
 }
@@ -455,8 +455,8 @@ int execute_request(const Request& request, const CommonSettings& common) {
                              .dump_directory = common.dump_directory,
                              .log =
                                  [&](LogLevel level, std::string_view text) {
-                                   const bool is_told = request.tells_itself && level == LogLevel::info && !common.console.is_verbose;
-                                   if (!is_told) console.log(level, text);
+                                   const bool is_reported = request.prints_findings && level == LogLevel::info && !common.console.is_verbose;
+                                   if (!is_reported) console.log(level, text);
                                  },
                              .progress = [&](const ProgressState& state) { console.progress(state); }};
   if (request.is_prompt)

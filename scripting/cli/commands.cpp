@@ -31,10 +31,10 @@
 #include "scripting/values/models.h"
 #include "scripting/values/open_domains.h"
 #include "scripting/values/patch_rules.h"
-#include "scripting/values/periodic_sides.h"
+#include "scripting/values/periodic_pairs.h"
 #include "scripting/values/remeshed_surface.h"
 #include "scripting/values/repair_surfaces.h"
-#include "scripting/values/stages.h"
+#include "scripting/values/stored_stages.h"
 #include "scripting/values/summary.h"
 #include "scripting/values/typed_number.h"
 #include "scripting/values/verbs.h"
@@ -255,30 +255,30 @@ void complete_options(volmesh::MeshCase& options, const MeshCommand& command, co
 }
 
 /// Adds the options of repair and wrap, if requested.
-void add_preparation(const MeshCommand& command, AutoSurface& asked, OptionTable& table) {
+void add_preparation(const MeshCommand& command, AutoSurface& requested, OptionTable& table) {
   if (command.is_repaired + command.is_wrapped + command.is_auto > 1)
     throw Error({.code = ErrorCode::bad_argument, .attempted = "reading the options", .problem = "more than one of --repair, --wrap and --auto"});
   if (command.is_repaired || command.is_auto)
-    for (Option& option : sterna::options_of(asked.repair)) table.push_back(std::move(option));
+    for (Option& option : sterna::options_of(requested.repair)) table.push_back(std::move(option));
   if (command.is_wrapped || command.is_auto)
-    for (Option& option : sterna::options_of(asked.wrap))
+    for (Option& option : sterna::options_of(requested.wrap))
       if (option.name != "unit" && option.name != "split_angle" && option.name != "fluid") table.push_back(std::move(option));  // those of reading apply
 }
 
 /// Returns the wall of triangulations.
-SurfaceValue wall_of(const MeshCommand& command, const std::vector<InputPath>& inputs, const AutoSurface& asked, const Reuse& reuse,
+SurfaceValue wall_of(const MeshCommand& command, const std::vector<InputPath>& inputs, const AutoSurface& requested, const Reuse& reuse,
                      const CommandContext& context) {
-  if (command.is_auto) return auto_triangles(inputs, asked, reuse, context.run.part("surface", 0.0, k_surface_end));
+  if (command.is_auto) return auto_triangles(inputs, requested, reuse, context.run.part("surface", 0.0, k_surface_end));
   const std::vector<UnionItem> items(inputs.begin(), inputs.end());
-  if (command.is_repaired) return repair_surfaces(items, asked.stitching, asked.repair, reuse, context.run.part("surface", 0.0, k_surface_end));
+  if (command.is_repaired) return repair_surfaces(items, requested.stitching, requested.repair, reuse, context.run.part("surface", 0.0, k_surface_end));
   if (command.is_wrapped) {
-    surfmesh::WrapOptions wrap = asked.wrap;
-    wrap.unit = asked.stitching.unit;
-    wrap.split_angle = asked.stitching.split_angle;
-    wrap.fluid = asked.stitching.fluid;
+    surfmesh::WrapOptions wrap = requested.wrap;
+    wrap.unit = requested.stitching.unit;
+    wrap.split_angle = requested.stitching.split_angle;
+    wrap.fluid = requested.stitching.fluid;
     return wrap_surfaces(items, wrap, reuse, context.run.part("surface", 0.0, k_surface_end));
   }
-  return read_wall(inputs, asked.stitching, context.run.part("surface", 0.0, k_read_end));
+  return read_wall(inputs, requested.stitching, context.run.part("surface", 0.0, k_read_end));
 }
 
 /// Generates the volume mesh. With --auto a remeshed surface is tried as well if the given triangles allow no envelope or no tetrahedra. The remeshed surface
@@ -293,7 +293,7 @@ MeshValue fill(const MeshCommand& command, SurfaceValue wall, const volmesh::Mes
   recipe.sources = sources_of(command.volume.sources);
   set_options(sterna::options_of(recipe.options), command.remesh, context);
   const std::size_t n_changes = wall.changes.size();
-  const SurfaceValue first = without_needles(wall, recipe, part, reuse);
+  const SurfaceValue first = without_slivers(wall, recipe, part, reuse);
   const bool is_new = first.changes.size() > n_changes;
   try {
     return make_volume_mesh(first, options, command.stages, part, reuse);
@@ -315,15 +315,15 @@ MeshValue make_mesh_of_models(const MeshCommand& command, const std::vector<Inpu
                  .attempted = command.is_repaired ? "option --repair" : "option --wrap",
                  .problem = inputs.front().name + " is a model, not a triangulation",
                  .hint = "--auto meshes the faces of the model, and repairs or wraps the triangles if they cross or are open"});
-  AutoSurface asked;
-  SurfaceRecipe& recipe = asked.recipe;
-  ReadCadOptions& reading = asked.reading;
+  AutoSurface requested;
+  SurfaceRecipe& recipe = requested.recipe;
+  ReadCadOptions& reading = requested.reading;
   volmesh::MeshCase volume_options;
   volume_options.patches = layer_rules_of(command.volume.patches, &recipe.patches);
   recipe.sources = sources_of(command.volume.sources);  // one source applies to wall and volume
   if (!recipe.sources.empty()) recipe.sources_text = sources_text(recipe.sources, false);
   OptionTable table = volmesh::required_options_of(volume_options);
-  add_preparation(command, asked, table);
+  add_preparation(command, requested, table);
   for (Option& option : model_surface_options(recipe.options, reading)) table.push_back(std::move(option));
   AutoSurface unused;
   OptionOverrides given = command.options;
@@ -335,9 +335,9 @@ MeshValue make_mesh_of_models(const MeshCommand& command, const std::vector<Inpu
     recipe.options.refinement = volume_options.family.refinement;
   complete_options(volume_options, command, context.run);
   read_features(command.volume, volume_options);
-  asked.periodic = volume_options.periodic;
+  requested.periodic = volume_options.periodic;
   const RunContext surface_part = context.run.part("surface", 0.0, k_surface_end);
-  SurfaceValue wall = command.is_auto ? auto_triangles(inputs, asked, reuse, surface_part)
+  SurfaceValue wall = command.is_auto ? auto_triangles(inputs, requested, reuse, surface_part)
                                       : mesh_model_files(inputs, reading, recipe, surface_part, reuse, volume_options.periodic);
   remesh_wall(command, volume_options, wall, reuse, context);
   wall = halved(command.volume, wall, context);
@@ -352,14 +352,14 @@ MeshValue make_mesh(const MeshCommand& command, const Reuse& reuse, const Comman
   for (const std::string& name : command.inputs) inputs.push_back({name, name});
   if (std::any_of(inputs.begin(), inputs.end(), [](const InputPath& input) { return is_model_file(input.path); }))
     return make_mesh_of_models(command, inputs, reuse, context);
-  AutoSurface asked;
+  AutoSurface requested;
   volmesh::MeshCase volume_options;
   std::vector<surfmesh::PatchSurfaceOptions> sizes;  // sizes of the new triangles
   volume_options.patches = layer_rules_of(command.volume.patches, command.is_remeshed ? &sizes : nullptr);
-  asked.stitching.allow_open = command.volume.is_half;
+  requested.stitching.allow_open = command.volume.is_half;
   OptionTable table = volmesh::required_options_of(volume_options);
-  for (Option& option : sterna::options_of(asked.stitching)) table.push_back(std::move(option));
-  add_preparation(command, asked, table);
+  for (Option& option : sterna::options_of(requested.stitching)) table.push_back(std::move(option));
+  add_preparation(command, requested, table);
   AutoSurface unused;
   set_options(table, command.options, context, elsewhere_of(command, false, unused));
   if (!command.volume.sources.empty() && !command.is_remeshed)
@@ -367,8 +367,8 @@ MeshValue make_mesh(const MeshCommand& command, const Reuse& reuse, const Comman
                      (command.is_auto ? ", unless --auto remeshes the wall, where sources apply as well" : ": --remesh refines the wall, too"));
   complete_options(volume_options, command, context.run);
   read_features(command.volume, volume_options);
-  if (!volume_options.farfield.farfield_floor.empty()) asked.stitching.allow_open = true;
-  SurfaceValue wall = wall_of(command, inputs, asked, reuse, context);
+  if (!volume_options.farfield.farfield_floor.empty()) requested.stitching.allow_open = true;
+  SurfaceValue wall = wall_of(command, inputs, requested, reuse, context);
   remesh_wall(command, volume_options, wall, reuse, context);
   wall = halved(command.volume, wall, context);
   if (!command.crevices.empty()) fill_wall(command, wall, context);

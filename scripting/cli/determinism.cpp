@@ -18,7 +18,7 @@
 #include "geom/base/hash.h"
 #include "io/output/scratch_folder.h"
 #include "scripting/series/case_status.h"
-#include "scripting/series/child_process.h"
+#include "scripting/series/worker_process.h"
 #include "scripting/terminal/exit_status.h"
 #include "scripting/values/summary.h"
 

@@ -52,8 +52,8 @@ Finding libraries() {
       [](dl_phdr_info* info, std::size_t, void* list) {
         std::error_code failure;
         const std::string name = fs::canonical(info->dlpi_name, failure).filename().string();
-        constexpr std::array<const char*, 8> k_told = {"libTKernel.", "libtbb.", "libcgns.", "libhdf5", "libnetcdf.", "libnlopt.", "liblua", "libgmp."};
-        if (!failure && std::ranges::any_of(k_told, [&](const char* told) { return name.starts_with(told); }))
+        constexpr std::array<const char*, 8> k_reported = {"libTKernel.", "libtbb.", "libcgns.", "libhdf5", "libnetcdf.", "libnlopt.", "liblua", "libgmp."};
+        if (!failure && std::ranges::any_of(k_reported, [&](const char* reported) { return name.starts_with(reported); }))
           static_cast<std::vector<std::string>*>(list)->push_back(name);
         return 0;
       },
@@ -142,7 +142,7 @@ Finding tiny_mesh(const std::string& engine, const CommandContext& context) {
 int examine(const CommandContext& context) {
   context.console.print("sterna " STERNA_VERSION ", GPL-3.0-or-later");
   Health worst = Health::good;
-  const auto tell = [&](const Finding& finding) {
+  const auto report = [&](const Finding& finding) {
     constexpr std::array<const char*, 3> k_marks = {"ok", "poor", "BROKEN"};
     context.console.print(fmt::format("  {:<14} {:<7} {}{}", finding.what, k_marks[static_cast<std::size_t>(finding.health)], finding.text,
                                       finding.remedy.empty() ? "" : "; " + finding.remedy));
@@ -150,14 +150,14 @@ int examine(const CommandContext& context) {
   };
   utsname system{};
   uname(&system);
-  tell({.what = "program", .text = fs::read_symlink("/proc/self/exe").string() + ", " + system.sysname + " " + system.release + " " + system.machine});
-  tell(libraries());
-  tell(processor(context));
-  tell(memory());
-  tell(temporary_folder());
-  tell(page());
-  tell(browser());
-  for (const char* engine : k_engines) tell(tiny_mesh(engine, context));
+  report({.what = "program", .text = fs::read_symlink("/proc/self/exe").string() + ", " + system.sysname + " " + system.release + " " + system.machine});
+  report(libraries());
+  report(processor(context));
+  report(memory());
+  report(temporary_folder());
+  report(page());
+  report(browser());
+  for (const char* engine : k_engines) report(tiny_mesh(engine, context));
   context.console.print(worst == Health::broken ? "This installation cannot mesh: see BROKEN above."
                         : worst == Health::poor ? "This installation can mesh; see poor above for limitations."
                                                 : "All tests passed.");

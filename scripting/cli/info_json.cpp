@@ -4,7 +4,7 @@
 
 #include "io/file/format_table.h"
 #include "scripting/values/models.h"
-#include "scripting/values/stages.h"
+#include "scripting/values/stored_stages.h"
 #include "scripting/values/summary.h"
 #include "scripting/values/verbs.h"
 #include "scripting/values/wall_files.h"

@@ -87,12 +87,12 @@ void refuse_on_triangulations(const SurfaceCommand& command) {
 int execute(const SurfaceCommand& command, const CommandContext& context) {
   SurfaceRecipe recipe;
   ReadCadOptions reading;
-  AutoSurface asked;
+  AutoSurface requested;
   // Options of the stages that --auto may start have the name of their stage as prefix: --set remesh.max_triangles=1e6
   const auto stage_of = [&](const std::string& name) -> OptionTable {
-    if (name.starts_with("remesh.")) return sterna::options_of(asked.remesh);
-    if (name.starts_with("repair.")) return sterna::options_of(asked.repair);
-    if (name.starts_with("wrap.")) return sterna::options_of(asked.wrap);
+    if (name.starts_with("remesh.")) return sterna::options_of(requested.remesh);
+    if (name.starts_with("repair.")) return sterna::options_of(requested.repair);
+    if (name.starts_with("wrap.")) return sterna::options_of(requested.wrap);
     return {};
   };
   OptionOverrides own, of_stages;
@@ -111,10 +111,10 @@ int execute(const SurfaceCommand& command, const CommandContext& context) {
   const std::unique_ptr<const StageCache> cache = cache_of(command.cache);
   const Reuse reuse{.cache = cache.get(), .lines = nullptr};
   const RunContext part = context.run.part("surface", 0.0, 0.95);
-  if (!is_automatic(reading.unit)) asked.stitching.unit = reading.unit;
-  asked.reading = reading;
-  asked.recipe = recipe;
-  SurfaceValue surface = command.is_auto ? auto_surface(inputs, asked, reuse, part) : mesh_model_files(inputs, reading, recipe, part, reuse);
+  if (!is_automatic(reading.unit)) requested.stitching.unit = reading.unit;
+  requested.reading = reading;
+  requested.recipe = recipe;
+  SurfaceValue surface = command.is_auto ? auto_surface(inputs, requested, reuse, part) : mesh_model_files(inputs, reading, recipe, part, reuse);
   add_layer_rules(layers, surface);
   for (const auto& output : command.outputs) write_surface(surface, output, context.run.part("write", 0.95, 1.0));
   context.console.end_progress();

@@ -15,7 +15,7 @@
 #include "io/output/atomic_file.h"
 #include "scripting/cli/pentagrow_config.h"
 #include "scripting/terminal/exit_status.h"
-#include "scripting/values/stages.h"
+#include "scripting/values/stored_stages.h"
 #include "scripting/values/summary.h"
 #include "scripting/values/verbs.h"
 #include "scripting/verbs/half_verbs.h"

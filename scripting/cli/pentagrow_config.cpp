@@ -44,11 +44,11 @@ class Entries {
       }
       const std::string key = trimmed(content.substr(0, equals));
       if (const auto [before, is_new] = entries_.insert_or_assign(key, Entry{number, trimmed(content.substr(equals + 1))}); !is_new)
-        notes.push_back(place(number) + key + " is given twice; the last counts");
+        notes.push_back(location(number) + key + " is given twice; the last counts");
     }
   }
 
-  std::string place(int line) const { return file_ + ":" + std::to_string(line) + ": "; }
+  std::string location(int line) const { return file_ + ":" + std::to_string(line) + ": "; }
   int line_of(const std::string& key) const { return entries_.at(key).line; }
   bool has(const std::string& key) {
     known_.push_back(key);
@@ -93,7 +93,7 @@ class Entries {
   std::string text(const std::string& key, const std::string& otherwise) { return has(key) ? entries_.at(key).value : otherwise; }
 
   /// Notes that a key has another effect here than in pentagrow. \pre has(key)
-  void note(const std::string& key, const std::string& what) { notes.push_back(place(line_of(key)) + key + ": " + what); }
+  void note(const std::string& key, const std::string& what) { notes.push_back(location(line_of(key)) + key + ": " + what); }
   void refuse(const std::string& key, const std::string& what) { add_problem(line_of(key), key + " = " + entries_.at(key).value + ": " + what); }
 
   void finish() {
@@ -105,7 +105,7 @@ class Entries {
     if (problems_.empty()) return;
     std::ranges::stable_sort(problems_, {}, &Problem::line);
     std::string text;
-    for (const Problem& problem : problems_) text += (problems_.size() == 1 ? "" : "\n  - ") + place(problem.line) + problem.text;
+    for (const Problem& problem : problems_) text += (problems_.size() == 1 ? "" : "\n  - ") + location(problem.line) + problem.text;
     throw Error({.code = ErrorCode::bad_argument,
                  .attempted = "reading the configuration of pentagrow",
                  .problem = (problems_.size() == 1 ? "" : std::to_string(problems_.size()) + " problems") + text});

@@ -6,7 +6,7 @@
 #include "geom/mesh/half.h"
 #include "scripting/command/cli_options.h"
 #include "scripting/values/disc_verbs.h"
-#include "scripting/values/periodic_sides.h"
+#include "scripting/values/periodic_pairs.h"
 #include "scripting/values/wake_verbs.h"
 #include "scripting/verbs/farfield_verbs.h"
 #include "scripting/verbs/half_verbs.h"

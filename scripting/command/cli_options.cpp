@@ -18,7 +18,7 @@ std::string kebab(std::string_view name) {
 /// Returns "NUMBER[deg]": the unit is that of a number given without one.
 std::string type_name(const Option& option) {
   if (option.kind == OptionKind::boolean) return "[true|false]";
-  if (option.kind == OptionKind::text) return "TEXT";
+  if (option.kind == OptionKind::string) return "TEXT";
   if (option.unit == Unit::none) return "NUMBER";
   return "NUMBER[" + std::string(option.unit == Unit::radian ? "deg" : to_string(option.unit)) + "]";
 }

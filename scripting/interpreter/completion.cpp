@@ -29,7 +29,7 @@ struct Opening {
   std::string name;
 };
 
-struct Place {
+struct CursorLocation {
   std::vector<Opening> open;
   bool is_text = false;
 };
@@ -49,8 +49,8 @@ std::string name_before(std::string_view text, std::size_t end) {
   return std::string(text.substr(start, end - start));
 }
 
-Place place_at_end(std::string_view text) {
-  Place place;
+CursorLocation location_at_end(std::string_view text) {
+  CursorLocation location;
   char quote = 0;
   for (std::size_t i = 0; i < text.size(); ++i) {
     const char c = text[i];
@@ -62,13 +62,13 @@ Place place_at_end(std::string_view text) {
     } else if (c == '"' || c == '\'') {
       quote = c;
     } else if (c == '{' || c == '(') {
-      place.open.push_back({c, name_before(text, i)});
-    } else if ((c == '}' || c == ')') && !place.open.empty()) {
-      place.open.pop_back();
+      location.open.push_back({c, name_before(text, i)});
+    } else if ((c == '}' || c == ')') && !location.open.empty()) {
+      location.open.pop_back();
     }
   }
-  place.is_text = quote != 0;
-  return place;
+  location.is_text = quote != 0;
+  return location;
 }
 
 // ---- Values of the script, by raw access only, so that no code of the script runs -------------------------------------------------------------------------
@@ -135,13 +135,13 @@ std::vector<std::string> members(lua_State* state, const std::string& path, char
 constexpr std::array k_patch_entries = {"patches", "boundaries", "kinds", "monitor", "wing", "farfield_sides"};
 
 /// Returns true if a string that names patches begins there: `patches = { ["` or `monitor = "`.
-bool wants_patches(const Place& place, std::string_view text) {
+bool needs_patches(const CursorLocation& location, std::string_view text) {
   const auto is_one = [](std::string_view name) {
     return std::ranges::any_of(k_patch_entries, [&](const char* entry) { return name == entry || name.ends_with(std::string(":") + entry); });
   };
   const std::size_t quote = text.find_last_of("\"'");
   const std::string before = quote == std::string_view::npos ? std::string() : name_before(text, quote);
-  return is_one(before) || (!place.open.empty() && is_one(place.open.back().name));
+  return is_one(before) || (!location.open.empty() && is_one(location.open.back().name));
 }
 
 /// Returns the names of patches of the objects in the script's globals.
@@ -176,9 +176,9 @@ const ScriptVerb* verb_called(std::string_view name) {
 }
 
 /// Returns the options of the innermost open table. These are all options of its verb; in `farfield = {` they are those with this prefix, without the prefix.
-std::vector<std::string> options_at(const Place& place) {
+std::vector<std::string> options_at(const CursorLocation& location) {
   std::string stage;
-  for (auto it = place.open.rbegin(); it != place.open.rend(); ++it) {
+  for (auto it = location.open.rbegin(); it != location.open.rend(); ++it) {
     if (it->bracket != '{') return {};
     const ScriptVerb* verb = verb_called(it->name);
     if (!verb) {
@@ -205,13 +205,13 @@ void keep_those_of(const std::string& word, std::vector<std::string>& candidates
 }  // namespace
 
 Completion complete(std::string_view text, ScriptState& state) {
-  const Place place = place_at_end(text);
+  const CursorLocation location = location_at_end(text);
   std::size_t start = text.size();
   while (start > 0 && (is_word_letter(text[start - 1]) || text[start - 1] == '.' || text[start - 1] == ':')) --start;
-  Completion result{.start = start, .candidates = {}, .is_text = place.is_text};
-  if (place.is_text && !wants_patches(place, text)) return result;
+  Completion result{.start = start, .candidates = {}, .is_text = location.is_text};
+  if (location.is_text && !needs_patches(location, text)) return result;
   const std::string word(text.substr(start));
-  if (place.is_text) {
+  if (location.is_text) {
     result.candidates = patch_names(state.lua());
     keep_those_of(word, result.candidates);
     return result;
@@ -221,7 +221,7 @@ Completion complete(std::string_view text, ScriptState& state) {
     result.candidates = members(state.lua(), word.substr(0, separator), word[separator]);
   } else {
     result.candidates = globals(state.lua());
-    for (const std::string& option : options_at(place)) result.candidates.push_back(option + " = ");
+    for (const std::string& option : options_at(location)) result.candidates.push_back(option + " = ");
   }
   keep_those_of(word, result.candidates);
   return result;

@@ -21,7 +21,7 @@ std::vector<std::pair<std::string, const std::string*>> sources_of(const ScriptS
 }
 
 /// Converts "case.lua:5: " to "case.lua:5".
-std::string place_of(const std::string& where) { return where.substr(0, where.rfind(": ")); }
+std::string location_of(const std::string& where) { return where.substr(0, where.rfind(": ")); }
 
 /// Returns the position in the source of the name as a key or as a string of the args{} that begins at this location; npos if there is none.
 std::size_t position_of(const std::string& source, std::size_t begin, const std::string& name) {
@@ -30,10 +30,10 @@ std::size_t position_of(const std::string& source, std::size_t begin, const std:
 }
 
 /// Sorts the parameters in the order of the source, because Lua's tables have no order.
-void sort_as_written(std::vector<ScriptParameter>& parameters, const ScriptSession& session, const std::string& place) {
+void sort_as_written(std::vector<ScriptParameter>& parameters, const ScriptSession& session, const std::string& location) {
   for (const auto& [file, source] : sources_of(session))
     for (const TableCall& call : table_calls(*source, "args"))
-      if (place == file + ":" + std::to_string(line_of(*source, call.word)) || place == file + ":" + std::to_string(line_of(*source, call.begin)))
+      if (location == file + ":" + std::to_string(line_of(*source, call.word)) || location == file + ":" + std::to_string(line_of(*source, call.begin)))
         return std::stable_sort(parameters.begin(), parameters.end(), [&](const ScriptParameter& a, const ScriptParameter& b) {
           return position_of(*source, call.begin, a.name) < position_of(*source, call.begin, b.name);
         });
@@ -82,17 +82,17 @@ bool is_read_alone(const std::string& source, const std::string& name) {
 
 std::vector<std::string> add_declared(ScriptSession& session, const std::string& where, std::vector<ScriptParameter> parameters) {
   DeclaredArguments& declared = session.declared;
-  const std::string place = place_of(where);
-  declared.calls.insert(place);
-  sort_as_written(parameters, session, place);
+  const std::string location = location_of(where);
+  declared.calls.insert(location);
+  sort_as_written(parameters, session, location);
   std::vector<std::string> problems;
   for (ScriptParameter& parameter : parameters) {
     const auto before = std::ranges::find(declared.list, parameter.name, &ScriptParameter::name);
     if (before == declared.list.end()) {
-      declared.places[parameter.name] = place;
+      declared.locations[parameter.name] = location;
       declared.list.push_back(std::move(parameter));
     } else if (!is_same_declaration(*before, parameter)) {
-      problems.push_back("argument " + parameter.name + ": " + declared.places[parameter.name] +
+      problems.push_back("argument " + parameter.name + ": " + declared.locations[parameter.name] +
                          " declares it with another default or other limits; declare it once, or identically in both places");
     }
   }

@@ -9,10 +9,10 @@
 
 #include "geom/base/error.h"
 #include "scripting/interpreter/declared_arguments.h"
+#include "scripting/interpreter/placeholders.h"
 #include "scripting/interpreter/script_args.h"
 #include "scripting/interpreter/script_objects.h"
 #include "scripting/interpreter/script_verbs.h"
-#include "scripting/interpreter/stand_ins.h"
 #include "scripting/lua/script_hooks.h"
 #include "scripting/lua/script_sandbox.h"
 #include "scripting/lua/script_unknowns.h"
@@ -207,7 +207,7 @@ ScriptValue run_with_cache(const ScriptVerb& verb, const ScriptCall& call) {
 const ScriptHooks k_hooks = {.kinds = object_kinds,
                              .describe = &k_describe_object,
                              .run = run_with_cache,
-                             .stand_in = make_stand_in,
+                             .placeholder = make_placeholder,
                              .set_option = set_option_as_typed,
                              .hint_for_global = hint_for_global};
 
@@ -233,26 +233,28 @@ int note_traceback(lua_State* state) {
 
 ScriptState::ScriptState(const ScriptSettings& settings, const RunContext& context) {
   check_overrides(settings.overrides);
-  parts_ = std::make_unique<Parts>(Parts{
-      .session =
-          {.context = context,
-           .script = settings.script,
-           .overrides = settings.overrides,
-           .print = settings.check ? [](std::string_view) {} : settings.print,
-           .on_mesh = settings.on_mesh,
-           .cache = settings.cache,
-           .cancelled = std::make_shared<const Error>(ErrorInfo{
-               .code = ErrorCode::cancelled, .attempted = settings.script.string(), .problem = "stopped on request", .places = {}, .hint = {}, .geometry = {}}),
-           .arguments = settings.arguments,
-           .check = settings.check,
-           .input_folder = settings.input_folder,
-           .series = {.settings = settings.series, .script_text = {}},
-           .hooks = &k_hooks,
-           .watch = settings.watch,
-           .value = {}},
-      .memory = {.used = 0, .limit = settings.memory_limit},
-      .traceback = {},
-      .owner = {}});
+  parts_ = std::make_unique<Parts>(Parts{.session = {.context = context,
+                                                     .script = settings.script,
+                                                     .overrides = settings.overrides,
+                                                     .print = settings.check ? [](std::string_view) {} : settings.print,
+                                                     .on_mesh = settings.on_mesh,
+                                                     .cache = settings.cache,
+                                                     .cancelled = std::make_shared<const Error>(ErrorInfo{.code = ErrorCode::cancelled,
+                                                                                                          .attempted = settings.script.string(),
+                                                                                                          .problem = "stopped on request",
+                                                                                                          .locations = {},
+                                                                                                          .hint = {},
+                                                                                                          .geometry = {}}),
+                                                     .arguments = settings.arguments,
+                                                     .check = settings.check,
+                                                     .input_folder = settings.input_folder,
+                                                     .series = {.settings = settings.series, .script_text = {}},
+                                                     .hooks = &k_hooks,
+                                                     .watch = settings.watch,
+                                                     .value = {}},
+                                         .memory = {.used = 0, .limit = settings.memory_limit},
+                                         .traceback = {},
+                                         .owner = {}});
   parts_->owner.reset(lua_newstate(allocate, &parts_->memory));
   if (!parts_->owner) throw Error({.code = ErrorCode::overflow, .attempted = "starting Lua", .problem = "not enough memory"});
   set_session(lua(), session());

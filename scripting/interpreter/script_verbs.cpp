@@ -23,7 +23,7 @@
 #include "scripting/values/manifest.h"
 #include "scripting/values/models.h"
 #include "scripting/values/patch_rules.h"
-#include "scripting/values/stages.h"
+#include "scripting/values/stored_stages.h"
 #include "scripting/values/summary.h"
 #include "scripting/values/verbs.h"
 #include "scripting/values/wake_verbs.h"
@@ -246,12 +246,12 @@ ScriptValue check_mesh(const ScriptCall& call) {
                  .attempted = call.attempted(),
                  .problem = report.is_valid() ? "the mesh is VALID, but " + quality_text(report) : "the mesh is INVALID"};
   for (const GateResult& gate : report.gates) {
-    if (report.is_valid() && gate.state == GateState::fail && !gate.places.empty())
-      info.places.push_back({gate.places.front().position, std::string(info_of(gate.measure).title) + ", " + gate.places.front().what});
+    if (report.is_valid() && gate.state == GateState::fail && !gate.locations.empty())
+      info.locations.push_back({gate.locations.front().position, std::string(info_of(gate.measure).title) + ", " + gate.locations.front().what});
   }
-  for (const auto& [violation, count] : report.counts) info.n_places += count;
+  for (const auto& [violation, count] : report.counts) info.n_locations += count;
   for (const CheckFinding& finding : report.findings)
-    info.places.push_back({finding.position, std::string(to_string(finding.violation)) + ", " + finding.what});
+    info.locations.push_back({finding.position, std::string(to_string(finding.violation)) + ", " + finding.what});
   throw Error(std::move(info));
 }
 
@@ -326,7 +326,7 @@ ScriptValue mesh_field(const ScriptCall& call) {
 
 ScriptValue error_field(const ScriptCall& call) {
   const Error& error = *self<ErrorHandle>(call);
-  return select_field(call, {{"code", std::string(to_string(error.code()))}, {"message", std::string(error.what())}, {"places", error.n_places()}}, {});
+  return select_field(call, {{"code", std::string(to_string(error.code()))}, {"message", std::string(error.what())}, {"places", error.n_locations()}}, {});
 }
 
 // ---- help ----------------------------------------------------------------------------------------------------------------------------------

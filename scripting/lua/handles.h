@@ -11,8 +11,8 @@ namespace sterna::scripting {
 
 struct SurfaceValue;     // values/verbs.h
 struct MeshValue;        // values/verbs.h
-struct EnvelopeValue;    // values/stages.h
-struct TetrahedraValue;  // values/stages.h
+struct EnvelopeValue;    // values/stored_stages.h
+struct TetrahedraValue;  // values/stored_stages.h
 struct ModelValue;       // values/models.h
 struct ComponentValue;   // component_value.h
 struct QuantityValue;    // quantity.h

@@ -131,7 +131,7 @@ ErrorHandle placed(const Error& error, const ScriptCall& call) {
 bool goes_on(lua_State* state, const ScriptVerb& verb, const ScriptCall& call, ErrorHandle error) {
   if (!call.session.check || error->code() == ErrorCode::cancelled || is_protected(state)) return false;
   call.session.check->problems.push_back(std::move(error));
-  call.session.value = verb.gives.empty() ? ScriptValue(OpaqueValue{k_unknown_value}) : stand_in(call, verb.gives);
+  call.session.value = verb.gives.empty() ? ScriptValue(OpaqueValue{k_unknown_value}) : placeholder(call, verb.gives);
   return true;
 }
 
@@ -151,12 +151,12 @@ bool run_verb(lua_State* state, ScriptSession& session, const ScriptVerb& verb) 
     for (int i = 1; i <= lua_gettop(state); ++i) call.arguments.push_back(read_value(state, i, 0));
     call.is_geometry = verb.is_heavy && is_geometry_made(call, verb);
     call.is_heavy = verb.is_heavy && !call.is_geometry;
-    if (session.check && is_about_unknown(call)) session.value = verb.gives.empty() ? ScriptValue(OpaqueValue{k_unknown_value}) : stand_in(call, verb.gives);
+    if (session.check && is_about_unknown(call)) session.value = verb.gives.empty() ? ScriptValue(OpaqueValue{k_unknown_value}) : placeholder(call, verb.gives);
     else session.value = session.hooks->run(verb, call);
     if (session.watch && !object_name(session.value).empty()) session.watch->made(call, session.value);
     return true;
   } catch (const ChecksDone&) {
-    session.value = stand_in(call, verb.gives);
+    session.value = placeholder(call, verb.gives);
     return true;
   } catch (const Error& error) {
     ErrorHandle of_user = placed(error, call);

@@ -18,19 +18,19 @@ bool is_geometry_made(const ScriptCall& call, const ScriptVerb& verb) {
   if (!call.session.check || !call.session.check->makes_geometry) return false;
   const bool is_geometry = verb.gives == "model" || verb.gives == "model or surface" || std::ranges::find(k_others, verb.name) != k_others.end();
   if (!is_geometry) return false;
-  const auto stands_for_another = [&](const ScriptValue& value) { return is_unknown(value) || is_stand_in(call, value); };
+  const auto stands_for_another = [&](const ScriptValue& value) { return is_unknown(value) || is_placeholder(call, value); };
   return std::ranges::none_of(call.arguments, [&](const ScriptValue& argument) {
     const auto* table = std::get_if<TableHandle>(&argument);
     return stands_for_another(argument) || (table && *table && std::ranges::any_of((*table)->items, stands_for_another));
   });
 }
 
-ScriptValue stand_in(const ScriptCall& call, std::string_view gives) { return call.session.hooks->stand_in(call, gives); }
+ScriptValue placeholder(const ScriptCall& call, std::string_view gives) { return call.session.hooks->placeholder(call, gives); }
 
-bool is_stand_in(const ScriptCall& call, const ScriptValue& value) {
+bool is_placeholder(const ScriptCall& call, const ScriptValue& value) {
   if (!call.session.check) return false;
-  const auto made = call.session.check->stand_ins.find(object_name(value));
-  return made != call.session.check->stand_ins.end() && is_same_object(made->second, value);
+  const auto made = call.session.check->placeholders.find(object_name(value));
+  return made != call.session.check->placeholders.end() && is_same_object(made->second, value);
 }
 
 void note_output(const ScriptCall& call, const std::filesystem::path& path) {

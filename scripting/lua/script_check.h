@@ -25,10 +25,10 @@ struct OptionSet {
 struct ScriptCheck {
   std::vector<ErrorHandle> problems;  ///< in the order of the script
   std::vector<OptionSet> options;
-  std::set<std::filesystem::path> outputs;                    ///< files that the script would have written; later verbs may read them
-  std::map<std::string, ScriptValue, std::less<>> stand_ins;  ///< placeholders by kind of object; created on first use
-  bool makes_geometry = false;                                ///< models, and surfaces of files, are made as in a run; meshes are not made, and nothing is
-                                                              ///< written
+  std::set<std::filesystem::path> outputs;                       ///< files that the script would have written; later verbs may read them
+  std::map<std::string, ScriptValue, std::less<>> placeholders;  ///< placeholders by kind of object; created on first use
+  bool makes_geometry = false;                                   ///< models, and surfaces of files, are made as in a run; meshes are not made, and nothing is
+                                                                 ///< written
 };
 
 /// Returns true if a heavy verb is executed although the run only checks: the run makes geometry, and no argument is a placeholder.
@@ -42,9 +42,9 @@ struct ChecksDone {};
 void finish_checks(const ScriptCall& call);
 
 /// Returns a placeholder for the result of the verb, of the kind ScriptVerb::gives; nil if that is empty.
-ScriptValue stand_in(const ScriptCall& call, std::string_view gives);
+ScriptValue placeholder(const ScriptCall& call, std::string_view gives);
 /// Returns true if the value is a placeholder, so that its names and numbers are meaningless.
-bool is_stand_in(const ScriptCall& call, const ScriptValue& value);
+bool is_placeholder(const ScriptCall& call, const ScriptValue& value);
 
 /// Notes a file that is written; a later verb may read it.
 void note_output(const ScriptCall& call, const std::filesystem::path& path);

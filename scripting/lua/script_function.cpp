@@ -30,10 +30,10 @@ int call_kept(lua_State* state) {
   for (int i = 0; i < exchange.n_arguments; ++i) lua_pushnumber(state, exchange.arguments[i]);
   lua_call(state, exchange.n_arguments, exchange.n_results);
   for (int i = 0; i < exchange.n_results; ++i) {
-    const int place = i - exchange.n_results;
-    if (lua_type(state, place) != LUA_TNUMBER)
-      return luaL_error(state, "a function must return %d numbers here, but value %d is %s", exchange.n_results, i + 1, luaL_typename(state, place));
-    exchange.results[i] = lua_tonumber(state, place);
+    const int location = i - exchange.n_results;
+    if (lua_type(state, location) != LUA_TNUMBER)
+      return luaL_error(state, "a function must return %d numbers here, but value %d is %s", exchange.n_results, i + 1, luaL_typename(state, location));
+    exchange.results[i] = lua_tonumber(state, location);
   }
   return 0;
 }

@@ -25,12 +25,12 @@ struct ObjectKind {
 };
 
 struct ScriptHooks {
-  std::span<const ObjectKind> (*kinds)();                                   ///< kinds of all objects
-  const ScriptVerb* describe;                                               ///< tostring() of all objects of sterna
-  ScriptValue (*run)(const ScriptVerb& verb, const ScriptCall& call);       ///< runs the verb, or takes its result from the cache; models get their key
-  ScriptValue (*stand_in)(const ScriptCall& call, std::string_view gives);  ///< see stand_in() of script_check.h
-  void (*set_option)(const Option& option, std::string_view text);          ///< sets an option from a text as users type it on the command line
-  std::string (*hint_for_global)(std::string_view name);                    ///< suggestion for an unknown global; empty: no name is near
+  std::span<const ObjectKind> (*kinds)();                                      ///< kinds of all objects
+  const ScriptVerb* describe;                                                  ///< tostring() of all objects of sterna
+  ScriptValue (*run)(const ScriptVerb& verb, const ScriptCall& call);          ///< runs the verb, or takes its result from the cache; models get their key
+  ScriptValue (*placeholder)(const ScriptCall& call, std::string_view gives);  ///< see placeholder() of script_check.h
+  void (*set_option)(const Option& option, std::string_view text);             ///< sets an option from a text as users type it on the command line
+  std::string (*hint_for_global)(std::string_view name);                       ///< suggestion for an unknown global; empty: no name is near
 };
 
 }  // namespace sterna::scripting

@@ -24,10 +24,10 @@ struct ScriptParameter {
 
 /// All arguments that a run has declared so far, in script and modules.
 struct DeclaredArguments {
-  std::vector<ScriptParameter> list = {};          ///< in the order of declaration
-  std::map<std::string, std::string> places = {};  ///< name -> location of the declaration, "case.lua:5"
-  std::set<std::string> calls = {};                ///< locations of the args{} that have run
-  bool is_refused = false;                         ///< the error of an unknown argument was raised
+  std::vector<ScriptParameter> list = {};             ///< in the order of declaration
+  std::map<std::string, std::string> locations = {};  ///< name -> location of the declaration, "case.lua:5"
+  std::set<std::string> calls = {};                   ///< locations of the args{} that have run
+  bool is_refused = false;                            ///< the error of an unknown argument was raised
 };
 
 }  // namespace sterna::scripting

@@ -74,9 +74,9 @@ function assert(...)
 end
 )lua";
 
-int has_stand_ins(lua_State* state) {
+int has_placeholders(lua_State* state) {
   const ScriptCheck* check = session_of(state).check;
-  lua_pushboolean(state, check && !check->stand_ins.empty());
+  lua_pushboolean(state, check && !check->placeholders.empty());
   return 1;
 }
 
@@ -85,7 +85,7 @@ int has_stand_ins(lua_State* state) {
 void open_unknowns(lua_State* state) {
   if (luaL_loadbufferx(state, k_prelude.data(), k_prelude.size(), "=check", "t") != LUA_OK) lua_error(state);
   luaL_newmetatable(state, k_unknown_type);
-  lua_pushcfunction(state, has_stand_ins);
+  lua_pushcfunction(state, has_placeholders);
   lua_call(state, 2, 0);
 }
 

@@ -12,7 +12,7 @@ constexpr int k_most_entries = 200;
 /// Depth of the stack up to which functions are inspected after an error: an endless recursion is deeper.
 constexpr int k_most_levels = 50;
 
-void tell_object(lua_State* state, const std::string& name, bool is_of_script, int index) {
+void report_object(lua_State* state, const std::string& name, bool is_of_script, int index) {
   const ScriptValue value = script_value_at(state, index);
   if (!object_name(value).empty()) session_of(state).watch->named(name, is_of_script, value);
 }
@@ -20,13 +20,13 @@ void tell_object(lua_State* state, const std::string& name, bool is_of_script, i
 /// Reports the value of a local variable, which is on top of the stack.
 void look_at_local(lua_State* state, const std::string& name, bool is_of_script) {
   const int top = lua_gettop(state);
-  if (lua_type(state, top) == LUA_TUSERDATA) return tell_object(state, name, is_of_script, top);
+  if (lua_type(state, top) == LUA_TUSERDATA) return report_object(state, name, is_of_script, top);
   if (!is_of_script || lua_type(state, top) != LUA_TTABLE || !lua_checkstack(state, 4)) return;
   lua_pushnil(state);
   for (int n = 0; n < k_most_entries && lua_next(state, top) != 0; ++n) {
     if (lua_type(state, -1) == LUA_TUSERDATA) {
-      if (lua_type(state, -2) == LUA_TSTRING) tell_object(state, name + "." + lua_tostring(state, -2), is_of_script, lua_gettop(state));
-      else if (lua_isinteger(state, -2)) tell_object(state, name + "[" + std::to_string(lua_tointeger(state, -2)) + "]", is_of_script, lua_gettop(state));
+      if (lua_type(state, -2) == LUA_TSTRING) report_object(state, name + "." + lua_tostring(state, -2), is_of_script, lua_gettop(state));
+      else if (lua_isinteger(state, -2)) report_object(state, name + "[" + std::to_string(lua_tointeger(state, -2)) + "]", is_of_script, lua_gettop(state));
     }
     lua_pop(state, 1);
   }

@@ -52,7 +52,7 @@ std::optional<OptionValue> value_of_table(const Option& option, const ScriptValu
 /// Returns a hint to write a single string in place of a list of strings, if the option expects one string; else an empty text.
 std::string as_one_text(const Option& option, const ScriptValue& value) {
   const auto* list = std::get_if<TableHandle>(&value);
-  if (option.kind != OptionKind::text || !list || (*list)->items.empty()) return {};
+  if (option.kind != OptionKind::string || !list || (*list)->items.empty()) return {};
   std::string text;
   for (const ScriptValue& item : (*list)->items) {
     if (!std::holds_alternative<std::string>(item)) return {};
@@ -91,12 +91,12 @@ TableReader::TableReader(const ScriptTable& table, const Attempt& attempted)
 
 const FunctionHandle* TableReader::option_function(std::string_view stage, std::string_view name) {
   const auto function_in = [&](const ScriptTable& table) {
-    const auto place = table.fields.find(std::string(name));
-    return place == table.fields.end() ? nullptr : std::get_if<FunctionHandle>(&place->second);
+    const auto location = table.fields.find(std::string(name));
+    return location == table.fields.end() ? nullptr : std::get_if<FunctionHandle>(&location->second);
   };
   const FunctionHandle* function = function_in(table_);
-  if (const auto place = table_.fields.find(std::string(stage)); !function && place != table_.fields.end())
-    if (const auto* nested = std::get_if<std::shared_ptr<const ScriptTable>>(&place->second)) function = function_in(**nested);
+  if (const auto location = table_.fields.find(std::string(stage)); !function && location != table_.fields.end())
+    if (const auto* nested = std::get_if<std::shared_ptr<const ScriptTable>>(&location->second)) function = function_in(**nested);
   if (function) functions_.insert(std::string(stage) + "." + std::string(name));
   return function;
 }
@@ -110,13 +110,13 @@ std::size_t TableReader::read_options(const OptionTable& options) {
   for (const auto& [key, value] : table_.fields) {
     const auto* nested = std::get_if<std::shared_ptr<const ScriptTable>>(&value);
     if (nested && is_stage(options, key)) {
-      asked_.insert(key);
+      requested_.insert(key);
       read_stage(options, key, **nested);
     } else if (const Option* option = find(options, key)) {
-      asked_.insert(key);
+      requested_.insert(key);
       set(*option, key, value);
     } else if (is_stage(options, key)) {
-      asked_.insert(key);
+      requested_.insert(key);
       add_problem(key + ": expected a table with options of this stage, not " + std::string(type_text(value)));
     }
   }
@@ -169,13 +169,13 @@ const QuantityValue* TableReader::quantity_of(std::string_view stage, std::strin
 }
 
 const std::vector<ScriptValue>& TableReader::items() {
-  are_items_asked_ = true;
+  are_items_requested_ = true;
   return table_.items;
 }
 
 const ScriptValue* TableReader::field(const std::string& name) {
   known_.push_back(name);
-  asked_.insert(name);
+  requested_.insert(name);
   const auto it = table_.fields.find(name);
   return it == table_.fields.end() ? nullptr : &it->second;
 }
@@ -203,10 +203,10 @@ void TableReader::add_unknown(const std::string& key, const std::vector<std::str
 
 void TableReader::finish() {
   for (const auto& [key, value] : table_.fields)
-    if (!asked_.contains(key)) add_unknown(key, known_);
+    if (!requested_.contains(key)) add_unknown(key, known_);
   for (const std::string& key : table_.unknown_fields)
     if (!contains(known_, key)) add_unknown(key, known_);
-  if (!are_items_asked_ && !table_.items.empty()) add_problem("entry 1: every entry of this table needs a name");
+  if (!are_items_requested_ && !table_.items.empty()) add_problem("entry 1: every entry of this table needs a name");
   for (const std::string& key : table_.other_keys) add_problem("key " + key + ": keys must be names");
   if (problems_.empty() && ends_with_checks_) throw ChecksDone{};
   if (problems_.empty()) return;

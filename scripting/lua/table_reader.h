@@ -60,11 +60,11 @@ class TableReader {
   ScriptCheck* check_ = nullptr;
   bool ends_with_checks_ = false;
   std::vector<std::string> known_;                    ///< keys that the verb accepts, for suggestions
-  std::set<std::string> asked_;                       ///< keys that were read
+  std::set<std::string> requested_;                   ///< keys that were read
   std::set<std::string> functions_;                   ///< options that have a function instead of a value
   std::map<std::string, QuantityHandle> quantities_;  ///< options given as flow quantities
   std::set<std::string> given_;                       ///< options that have a value already, to detect contradictions
-  bool are_items_asked_ = false;
+  bool are_items_requested_ = false;
   std::vector<std::string> problems_;
   std::size_t n_unknown_ = 0;
 };

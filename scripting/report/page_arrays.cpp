@@ -11,7 +11,7 @@ namespace sterna::scripting {
 namespace {
 
 constexpr std::size_t k_alignment = 4;
-constexpr std::string_view k_json_place = "<!--STERNA_JSON-->", k_blob_place = "<!--STERNA_BLOB-->";
+constexpr std::string_view k_json_placeholder = "<!--STERNA_JSON-->", k_blob_placeholder = "<!--STERNA_BLOB-->";
 
 /// Escapes JSON inside <script>: a "<" could close the tag.
 std::string escaped(const std::string& json) {
@@ -24,7 +24,7 @@ std::string escaped(const std::string& json) {
 }  // namespace
 
 template <class T>
-ArrayPlace PageArrays::add_values(std::string_view type, std::span<const T> values) {
+ArrayLocation PageArrays::add_values(std::string_view type, std::span<const T> values) {
   static_assert(std::endian::native == std::endian::little);
   const std::size_t at = bytes_.size();
   bytes_.append(reinterpret_cast<const char*>(values.data()), values.size_bytes());
@@ -32,10 +32,10 @@ ArrayPlace PageArrays::add_values(std::string_view type, std::span<const T> valu
   return {type, at, values.size()};
 }
 
-ArrayPlace PageArrays::add(std::span<const float> values) { return add_values("f32", values); }
-ArrayPlace PageArrays::add(std::span<const std::uint32_t> values) { return add_values("u32", values); }
-ArrayPlace PageArrays::add(std::span<const std::uint16_t> values) { return add_values("u16", values); }
-ArrayPlace PageArrays::add(std::span<const std::uint8_t> values) { return add_values("u8", values); }
+ArrayLocation PageArrays::add(std::span<const float> values) { return add_values("f32", values); }
+ArrayLocation PageArrays::add(std::span<const std::uint32_t> values) { return add_values("u32", values); }
+ArrayLocation PageArrays::add(std::span<const std::uint16_t> values) { return add_values("u16", values); }
+ArrayLocation PageArrays::add(std::span<const std::uint8_t> values) { return add_values("u8", values); }
 
 float shortened(double value) {
   constexpr std::uint32_t k_dropped = 13;  // number of bits dropped from the 23 mantissa bits of a float
@@ -52,14 +52,14 @@ std::string page_text(const std::string& json, const PageArrays& arrays) {
                  .attempted = "making a report page",
                  .problem = "this sterna was built without the page: npm was not found, or the npm registry could not be reached",
                  .hint = "install npm, then run tools/build again; `sterna check --json` contains the other data of a report"});
-  const auto fill = [&](std::string_view place, const std::string& content) {
-    const std::size_t at = text.find(place);
+  const auto fill = [&](std::string_view location, const std::string& content) {
+    const std::size_t at = text.find(location);
     if (at == std::string::npos)
-      throw Error({.code = ErrorCode::internal, .attempted = "making a report page", .problem = "the template has no " + std::string(place)});
-    text.replace(at, place.size(), content);
+      throw Error({.code = ErrorCode::internal, .attempted = "making a report page", .problem = "the template has no " + std::string(location)});
+    text.replace(at, location.size(), content);
   };
-  fill(k_json_place, escaped(json));
-  fill(k_blob_place, io::base64(io::gzip(arrays.bytes())));
+  fill(k_json_placeholder, escaped(json));
+  fill(k_blob_placeholder, io::base64(io::gzip(arrays.bytes())));
   return text;
 }
 

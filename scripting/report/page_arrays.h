@@ -9,7 +9,7 @@
 namespace sterna::scripting {
 
 /// Location of an array in the blob: {"type", "at", "n"} in the JSON.
-struct ArrayPlace {
+struct ArrayLocation {
   std::string_view type;
   std::size_t at = 0;  ///< byte offset in the blob
   std::size_t n = 0;   ///< number of values
@@ -18,15 +18,15 @@ struct ArrayPlace {
 class PageArrays {
  public:
   /// Appends the values and returns their location.
-  ArrayPlace add(std::span<const float> values);
-  ArrayPlace add(std::span<const std::uint32_t> values);
-  ArrayPlace add(std::span<const std::uint16_t> values);
-  ArrayPlace add(std::span<const std::uint8_t> values);
+  ArrayLocation add(std::span<const float> values);
+  ArrayLocation add(std::span<const std::uint32_t> values);
+  ArrayLocation add(std::span<const std::uint16_t> values);
+  ArrayLocation add(std::span<const std::uint8_t> values);
   const std::string& bytes() const { return bytes_; }
 
  private:
   template <class T>
-  ArrayPlace add_values(std::string_view type, std::span<const T> values);
+  ArrayLocation add_values(std::string_view type, std::span<const T> values);
   std::string bytes_;
 };
 

@@ -18,7 +18,7 @@ namespace {
 
 Json page_number(double value) { return std::isfinite(value) ? Json(value) : Json(nullptr); }
 Json page_point(const Point& p) { return Json::array({p.x, p.y, p.z}); }
-Json place_json(const ArrayPlace& place) { return {{"type", place.type}, {"at", place.at}, {"n", place.n}}; }
+Json location_json(const ArrayLocation& location) { return {{"type", location.type}, {"at", location.at}, {"n", location.n}}; }
 
 /// Returns true for walls. Other boundaries are not part of the body, and the farthest of them does not indicate the body's size.
 bool is_body(PatchKind kind) { return kind == PatchKind::wall; }
@@ -76,7 +76,7 @@ std::string page_field_json(std::string_view name, std::string_view title, std::
   const Json json = {{"name", name},
                      {"title", title},
                      {"unit", unit},
-                     {"values", place_json(arrays.add(std::span(values)))},
+                     {"values", location_json(arrays.add(std::span(values)))},
                      {"min", page_number(low)},
                      {"max", page_number(high)},
                      {"is_log", is_log},
@@ -150,10 +150,10 @@ std::string PageMaker::surface_json(std::size_t most, PageArrays& arrays) const 
     edges.push_back(is_thinned ? k_all_edges : triangles_.edges[thin.source[t]]);
   }
   Json json = {{"shown", thin.triangles.size()}, {"total", triangles_.triangles.size()}};
-  json["points"] = place_json(arrays.add(std::span<const float>(points)));
-  json["triangles"] = place_json(arrays.add(std::span<const std::uint32_t>(corners)));
-  json["patch"] = place_json(arrays.add(std::span<const std::uint16_t>(patch)));
-  json["edges"] = place_json(arrays.add(std::span<const std::uint8_t>(edges)));
+  json["points"] = location_json(arrays.add(std::span<const float>(points)));
+  json["triangles"] = location_json(arrays.add(std::span<const std::uint32_t>(corners)));
+  json["patch"] = location_json(arrays.add(std::span<const std::uint16_t>(patch)));
+  json["edges"] = location_json(arrays.add(std::span<const std::uint8_t>(edges)));
   json["fields"] = Json::array();
   for (const SurfaceField& field : fields_) {
     if (std::none_of(field.values.begin(), field.values.end(), [](double v) { return std::isfinite(v); })) continue;
@@ -166,17 +166,17 @@ std::string PageMaker::surface_json(std::size_t most, PageArrays& arrays) const 
 }
 
 /// Returns the polygons nearest to the focus.
-std::string page_cut_json(const CutPlace& place, const MeshCut& cut, std::size_t most, PageArrays& arrays) {
+std::string page_cut_json(const CutLocation& location, const MeshCut& cut, std::size_t most, PageArrays& arrays) {
   std::vector<std::uint32_t> chosen(cut.size());
   std::iota(chosen.begin(), chosen.end(), 0u);
   if (cut.size() > most) {
     std::vector<double> off(cut.size());
-    for (std::size_t k = 0; k < cut.size(); ++k) off[k] = distance(cut.corners_of(k).front(), place.focus);
+    for (std::size_t k = 0; k < cut.size(); ++k) off[k] = distance(cut.corners_of(k).front(), location.focus);
     std::sort(chosen.begin(), chosen.end(), [&](std::uint32_t a, std::uint32_t b) { return std::pair(off[a], a) < std::pair(off[b], b); });
     chosen.resize(most);
     std::sort(chosen.begin(), chosen.end());
   }
-  const Point origin = place.focus;
+  const Point origin = location.focus;
   std::vector<float> points, shape, quality, layer, volume;
   std::vector<std::uint32_t> first = {0};
   std::vector<std::uint8_t> kind;
@@ -193,16 +193,16 @@ std::string page_cut_json(const CutPlace& place, const MeshCut& cut, std::size_t
     layer.push_back(polygon.layer >= 0 ? static_cast<float>(polygon.layer + 1) : std::nanf(""));
     volume.push_back(shortened(polygon.volume));
   }
-  Json json = {{"name", place.name},
-               {"origin", page_point(place.plane.origin)},
+  Json json = {{"name", location.name},
+               {"origin", page_point(location.plane.origin)},
                {"base", page_point(origin)},
-               {"normal", page_point(place.plane.normal)},
-               {"focus", {{"center", page_point(place.focus)}, {"radius", place.radius}}}};
+               {"normal", page_point(location.plane.normal)},
+               {"focus", {{"center", page_point(location.focus)}, {"radius", location.radius}}}};
   json["shown"] = chosen.size();
   json["total"] = cut.size();
-  json["points"] = place_json(arrays.add(std::span<const float>(points)));
-  json["first"] = place_json(arrays.add(std::span<const std::uint32_t>(first)));
-  json["kind"] = place_json(arrays.add(std::span<const std::uint8_t>(kind)));
+  json["points"] = location_json(arrays.add(std::span<const float>(points)));
+  json["first"] = location_json(arrays.add(std::span<const std::uint32_t>(first)));
+  json["kind"] = location_json(arrays.add(std::span<const std::uint8_t>(kind)));
   constexpr double k_none = std::numeric_limits<double>::quiet_NaN();
   constexpr GateLimits k_no_limits{k_none, k_none, k_none, 1.0};
   constexpr double k_degrees = 180.0 / std::numbers::pi;

@@ -9,7 +9,7 @@
 #include <vector>
 
 #include "geom/mesh/cut.h"
-#include "geom/mesh/cut_places.h"
+#include "geom/mesh/cut_locations.h"
 #include "geom/mesh/gates.h"
 #include "geom/mesh/hybrid_mesh.h"
 #include "geom/mesh/surface_fields.h"
@@ -55,6 +55,6 @@ class PageMaker {
 };
 
 /// Returns an object with the polygons nearest to the focus of the cut, at most `most`, relative to the focus.
-std::string page_cut_json(const CutPlace& place, const MeshCut& cut, std::size_t most, PageArrays& arrays);
+std::string page_cut_json(const CutLocation& location, const MeshCut& cut, std::size_t most, PageArrays& arrays);
 
 }  // namespace sterna::scripting

@@ -11,7 +11,7 @@
 #include "geom/base/error.h"
 #include "geom/base/number_text.h"
 #include "geom/draw/choices.h"
-#include "geom/mesh/cut_places.h"
+#include "geom/mesh/cut_locations.h"
 #include "scripting/report/page_arrays.h"
 #include "scripting/report/page_surface.h"
 #include "scripting/report/report_gates.h"
@@ -85,33 +85,35 @@ Json facts_json(const MeshValue& value) {
 std::string title_of(const ReportOptions& options, std::string_view name) { return options.title == "automatic" ? std::string(name) : options.title; }
 
 /// Returns the user's cuts, then the automatic cuts that the user has not named. A user's plane is viewed at its point nearest to the centre of the bodies.
-std::vector<CutPlace> places_of(const HybridMesh& mesh, const std::vector<std::string>& wanted, bool with_automatic, const PageMaker& maker,
-                                const RunContext& context) {
+std::vector<CutLocation> locations_of(const HybridMesh& mesh, const std::vector<std::string>& requested, bool with_automatic, const PageMaker& maker,
+                                      const RunContext& context) {
   constexpr double k_radius_share = 0.6;  // radius relative to the bodies' length, so that all bodies are visible
-  std::vector<CutPlace> automatic = automatic_cuts(mesh, context), places;
-  for (const std::string& text : wanted) {
+  std::vector<CutLocation> automatic = automatic_cuts(mesh, context), locations;
+  for (const std::string& text : requested) {
     if (const std::optional<CutPlane> plane = draw::plane_of(text)) {
       const Vec3 normal = normalized(plane->normal);
-      places.push_back({text, *plane, maker.origin() - dot(maker.origin() - plane->origin, normal) * normal, k_radius_share * maker.length()});
+      locations.push_back({text, *plane, maker.origin() - dot(maker.origin() - plane->origin, normal) * normal, k_radius_share * maker.length()});
     } else {
-      places.push_back(draw::place_of(automatic, text, "report", "cut"));
+      locations.push_back(draw::location_of(automatic, text, "report", "cut"));
     }
   }
-  if (!with_automatic) return places;
-  for (CutPlace& place : automatic)
-    if (std::none_of(places.begin(), places.end(), [&](const CutPlace& known) { return known.name == place.name; })) places.push_back(std::move(place));
-  return places;
+  if (!with_automatic) return locations;
+  for (CutLocation& location : automatic)
+    if (std::none_of(locations.begin(), locations.end(), [&](const CutLocation& known) { return known.name == location.name; }))
+      locations.push_back(std::move(location));
+  return locations;
 }
 
 /// Tests that the user's planes cut the mesh.
-/// \pre `places` begins with the requested ones.
+/// \pre `locations` begins with the requested ones.
 /// \throws Error(bad_argument) for a requested plane that does not intersect the mesh.
-void require_cells(const HybridMesh& mesh, std::span<const std::string> wanted, const std::vector<CutPlace>& places, const std::vector<MeshCut>& cuts) {
-  for (std::size_t i = 0; i < wanted.size(); ++i)
+void require_cells(const HybridMesh& mesh, std::span<const std::string> requested, const std::vector<CutLocation>& locations,
+                   const std::vector<MeshCut>& cuts) {
+  for (std::size_t i = 0; i < requested.size(); ++i)
     if (cuts[i].size() == 0)
       throw Error({.code = ErrorCode::bad_argument,
-                   .attempted = "report: cut \"" + wanted[i] + "\"",
-                   .problem = clear_plane_text(mesh, places[i].plane),
+                   .attempted = "report: cut \"" + requested[i] + "\"",
+                   .problem = clear_plane_text(mesh, locations[i].plane),
                    .hint = "choose a plane between these limits"});
 }
 
@@ -139,7 +141,7 @@ void require_report_cuts(const std::vector<std::string>& cuts) {
   for (const std::string& cut : cuts) draw::plane_of(cut);
 }
 
-std::string report_html(const MeshValue& mesh, const ReportOptions& options, const std::vector<std::string>& cuts_wanted, std::string_view name,
+std::string report_html(const MeshValue& mesh, const ReportOptions& options, const std::vector<std::string>& requested_cuts, std::string_view name,
                         const RunContext& context) {
   if (!mesh.check || !mesh.check->quality_measured) mesh.check = check(mesh.mesh, {}, context.part("check", 0.0, 0.4));
   const CheckReport& report = *mesh.check;
@@ -151,14 +153,14 @@ std::string report_html(const MeshValue& mesh, const ReportOptions& options, con
   const std::vector<SurfaceField> fields = surface_fields(mesh.mesh, context);
   const PageTriangles triangles = page_triangles(mesh.mesh);
   const PageMaker maker(mesh.mesh.points.raw(), triangles, mesh.mesh.patches, fields);
-  const std::vector<CutPlace> places = places_of(mesh.mesh, cuts_wanted, options.automatic_cuts, maker, context);
+  const std::vector<CutLocation> locations = locations_of(mesh.mesh, requested_cuts, options.automatic_cuts, maker, context);
   std::vector<MeshCut> cuts;
-  for (const CutPlace& place : places) {
-    cuts.push_back(cut_mesh(mesh.mesh, place.plane, context));
-    context.progress(0.4 + 0.4 * static_cast<double>(cuts.size()) / static_cast<double>(places.size()));
+  for (const CutLocation& location : locations) {
+    cuts.push_back(cut_mesh(mesh.mesh, location.plane, context));
+    context.progress(0.4 + 0.4 * static_cast<double>(cuts.size()) / static_cast<double>(locations.size()));
   }
 
-  require_cells(mesh.mesh, cuts_wanted, places, cuts);
+  require_cells(mesh.mesh, requested_cuts, locations, cuts);
 
   const std::string title = title_of(options, name);
   Json head = {{"schema", "sterna-report-1"}, {"program", "sterna " STERNA_VERSION}, {"title", title}, {"kind", "volume"}, {"facts", facts_json(mesh)}};
@@ -174,9 +176,9 @@ std::string report_html(const MeshValue& mesh, const ReportOptions& options, con
     Json json = head;
     json["surface"] = Json::parse(maker.surface_json(n_triangles, arrays));
     json["cuts"] = Json::array();
-    for (std::size_t i = 0; i < places.size(); ++i)
+    for (std::size_t i = 0; i < locations.size(); ++i)
       if (cuts[i].size() > 0)
-        json["cuts"].push_back(Json::parse(page_cut_json(places[i], cuts[i], std::max<std::size_t>(1, n_polygons / places.size()), arrays)));
+        json["cuts"].push_back(Json::parse(page_cut_json(locations[i], cuts[i], std::max<std::size_t>(1, n_polygons / locations.size()), arrays)));
     return page_text(text_of(json), arrays);
   });
 }

@@ -17,37 +17,38 @@ Json missed_limit(const Json& measure, double value) {
   return nullptr;
 }
 
-void add_places(const Json& measure, Json& places) {
+void add_locations(const Json& measure, Json& locations) {
   int rank = 0;
-  for (const Json& place : measure["places"]) {
-    const Json& value = place["value"];
-    places.push_back({{"gate", measure["gate"]},
-                      {"measure", measure["measure"]},
-                      {"title", measure["title"]},
-                      {"state", measure["state"]},
-                      {"value", value},
-                      {"unit", measure["unit"]},
-                      {"limit", value.is_number() ? missed_limit(measure, value.get<double>()) : measure["limits"]["hard"]},
-                      {"at", place["position"]},
-                      {"what", place["what"]},
-                      {"rank", ++rank}});
+  for (const Json& location : measure["places"]) {
+    const Json& value = location["value"];
+    locations.push_back({{"gate", measure["gate"]},
+                         {"measure", measure["measure"]},
+                         {"title", measure["title"]},
+                         {"state", measure["state"]},
+                         {"value", value},
+                         {"unit", measure["unit"]},
+                         {"limit", value.is_number() ? missed_limit(measure, value.get<double>()) : measure["limits"]["hard"]},
+                         {"at", location["position"]},
+                         {"what", location["what"]},
+                         {"rank", ++rank}});
   }
 }
 
 /// Adds locations that are forced by the input surface. They are listed separately, after the mesher's own defects.
-void add_forced(const Json& measure, Json& places) {
+void add_forced(const Json& measure, Json& locations) {
   int rank = 0;
-  for (const Json& place : measure["forced_places"])
-    places.push_back({{"gate", measure["gate"]},
-                      {"measure", measure["measure"]},
-                      {"title", measure["title"].get<std::string>() + ", forced by the given surface"},
-                      {"state", "forced"},
-                      {"value", place["value"]},
-                      {"unit", measure["unit"]},
-                      {"limit", measure["limits"]["hard"]},
-                      {"at", place["position"]},
-                      {"what", place["what"].get<std::string>() + ": " + place["why"].get<std::string>() + "; " + place["remedy"].get<std::string>()},
-                      {"rank", ++rank}});
+  for (const Json& location : measure["forced_places"])
+    locations.push_back(
+        {{"gate", measure["gate"]},
+         {"measure", measure["measure"]},
+         {"title", measure["title"].get<std::string>() + ", forced by the given surface"},
+         {"state", "forced"},
+         {"value", location["value"]},
+         {"unit", measure["unit"]},
+         {"limit", measure["limits"]["hard"]},
+         {"at", location["position"]},
+         {"what", location["what"].get<std::string>() + ": " + location["why"].get<std::string>() + "; " + location["remedy"].get<std::string>()},
+         {"rank", ++rank}});
 }
 
 }  // namespace
@@ -82,7 +83,7 @@ std::string page_check_json(const CheckReport& report) {
   page["histograms"] = Json::array();
   for (const char* state : {"fail", "warn", "pass", "not checked"})
     for (const Json& measure : check["measures"])
-      if (measure["state"] == state && measure.contains("places")) add_places(measure, page["places"]);
+      if (measure["state"] == state && measure.contains("places")) add_locations(measure, page["places"]);
   for (const Json& measure : check["measures"])
     if (measure.contains("forced_places")) add_forced(measure, page["places"]);
   for (const Json& measure : check["measures"]) {

@@ -19,16 +19,17 @@ namespace fs = std::filesystem;
 constexpr const char* k_schema = "sterna-case-1";
 constexpr CaseState k_states[] = {CaseState::none, CaseState::running, CaseState::done, CaseState::failed, CaseState::killed};
 
-Json places_json(const std::vector<ErrorPlace>& places) {
+Json locations_json(const std::vector<ErrorLocation>& locations) {
   Json list = Json::array();
-  for (const ErrorPlace& place : places) list.push_back({{"at", {place.position.x, place.position.y, place.position.z}}, {"what", place.what}});
+  for (const ErrorLocation& location : locations)
+    list.push_back({{"at", {location.position.x, location.position.y, location.position.z}}, {"what", location.what}});
   return list;
 }
 
 Json json_of(const CaseStatus& status) {
   Json json = {{"schema", k_schema}, {"status", to_string(status.state)}, {"key", status.key}};
   if (status.state == CaseState::running) json["process"] = {{"pid", status.process}, {"host", status.host}};
-  if (status.state == CaseState::failed) json["error"] = {{"code", status.code}, {"message", status.message}, {"places", places_json(status.places)}};
+  if (status.state == CaseState::failed) json["error"] = {{"code", status.code}, {"message", status.message}, {"places", locations_json(status.locations)}};
   if (status.is_of_machine && status.state == CaseState::failed) json["error"]["of_machine"] = true;
   if (status.state == CaseState::killed) json["killed"] = status.message;
   if (status.state == CaseState::done) {
@@ -67,8 +68,8 @@ CaseStatus status_of(const Json& json) {
     status.code = error.at("code");
     status.message = error.at("message");
     status.is_of_machine = error.value("of_machine", false);
-    for (const Json& place : error.at("places"))
-      status.places.push_back({{place.at("at").at(0), place.at("at").at(1), place.at("at").at(2)}, place.at("what")});
+    for (const Json& location : error.at("places"))
+      status.locations.push_back({{location.at("at").at(0), location.at("at").at(1), location.at("at").at(2)}, location.at("what")});
   }
   return status;
 }

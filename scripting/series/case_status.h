@@ -37,12 +37,12 @@ struct CaseStatus {
   std::map<std::string, std::string> outputs;  ///< hash of each file in the folder, by name
   std::vector<std::string> found;              ///< files in the folder before the case that are not its own
 
-  MeshFigures mesh;                ///< only if done
-  std::string result;              ///< if done: the function's return value as JSON; "null" for values that are not plain
-  std::string code;                ///< if failed: the ErrorCode
-  std::string message;             ///< if failed: the full text; if killed: the cause
-  std::vector<ErrorPlace> places;  ///< locations of the error, if failed
-  bool is_of_machine = false;      ///< if failed: memory, disk space or processes were lacking, so another run may succeed
+  MeshFigures mesh;                      ///< only if done
+  std::string result;                    ///< if done: the function's return value as JSON; "null" for values that are not plain
+  std::string code;                      ///< if failed: the ErrorCode
+  std::string message;                   ///< if failed: the full text; if killed: the cause
+  std::vector<ErrorLocation> locations;  ///< locations of the error, if failed
+  bool is_of_machine = false;            ///< if failed: memory, disk space or processes were lacking, so another run may succeed
 
   std::int64_t process = 0;  ///< process id, while running
   std::string host;          ///< host name, while running

@@ -92,7 +92,7 @@ void note_failure(const Error& error, CaseStatus& status, const fs::path& folder
   status.state = error.code() == ErrorCode::cancelled ? CaseState::killed : CaseState::failed;
   status.message = status.state == CaseState::killed ? "stopped on request" : message_of_function(error);
   status.code = to_string(error.code());
-  status.places = error.info().places;
+  status.locations = error.info().locations;
   status.is_of_machine = status.state == CaseState::failed && is_of_machine(error);
   if (status.state == CaseState::failed && !error.info().geometry.empty()) io::write_trouble_vtu(error.info().geometry, folder / "trouble.vtu");
 }

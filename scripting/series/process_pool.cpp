@@ -12,7 +12,7 @@
 
 #include "geom/base/error.h"
 #include "scripting/series/case_runners.h"
-#include "scripting/series/child_process.h"
+#include "scripting/series/worker_process.h"
 
 namespace sterna::scripting {
 namespace {

@@ -59,17 +59,17 @@ ScriptValue result_of_earlier(const ScriptCall& call, const SeriesPlan& plan) {
 /// other work is allowed to take.
 class StopNotice {
  public:
-  explicit StopNotice(const std::function<void(bool)>& tell) : tell_(tell) {
-    if (tell_) tell_(true);
+  explicit StopNotice(const std::function<void(bool)>& report) : report_(report) {
+    if (report_) report_(true);
   }
   ~StopNotice() {
-    if (tell_) tell_(false);
+    if (report_) report_(false);
   }
   StopNotice(const StopNotice&) = delete;
   StopNotice& operator=(const StopNotice&) = delete;
 
  private:
-  const std::function<void(bool)>& tell_;
+  const std::function<void(bool)>& report_;
 };
 
 /// One series while it runs.
@@ -81,7 +81,7 @@ class SeriesRun {
   }
 
   /// \throws Error as run(); for a stop, the message states which results are kept and how to continue
-  const std::vector<CaseResult>& run_or_tell_what_is_kept() {
+  const std::vector<CaseResult>& run_or_report_kept() {
     try {
       return run();
     } catch (const Error& error) {
@@ -184,7 +184,7 @@ ScriptValue run_all(const ScriptCall& call, const SeriesPlan& plan) {
   if (series.settings.program.empty()) reject(call, "series starts processes of the program sterna", "run the script with `sterna run`");
   const StopNotice notice(series.settings.stops_itself);
   SeriesRun run(call, plan);
-  const std::vector<CaseResult>& results = run.run_or_tell_what_is_kept();
+  const std::vector<CaseResult>& results = run.run_or_report_kept();
   for (const CaseResult& result : results) {
     if (result.status.state != CaseState::done) ++series.n_failed;
     else if (result.status.mesh.verdict == "INVALID") ++series.n_invalid;

@@ -202,8 +202,8 @@ void read_run(TableReader& reader, SeriesPlan& plan) {
 }
 
 /// Returns true if the case has all these parameters with these values.
-bool has_all(const SeriesCase& c, const ScriptTable& wanted) {
-  return std::all_of(wanted.fields.begin(), wanted.fields.end(), [&](const auto& entry) {
+bool has_all(const SeriesCase& c, const ScriptTable& requested) {
+  return std::all_of(requested.fields.begin(), requested.fields.end(), [&](const auto& entry) {
     const auto it = c.parameters.fields.find(entry.first);
     return it != c.parameters.fields.end() && to_json(it->second) == to_json(entry.second);
   });
@@ -212,14 +212,14 @@ bool has_all(const SeriesCase& c, const ScriptTable& wanted) {
 void read_reference(TableReader& reader, SeriesPlan& plan) {
   const ScriptValue* value = reader.field("reference");
   if (!value || plan.cases.empty()) return;
-  const auto* wanted = std::get_if<TableHandle>(value);
-  if (!wanted || (*wanted)->fields.empty() || !(*wanted)->items.empty()) {
+  const auto* requested = std::get_if<TableHandle>(value);
+  if (!requested || (*requested)->fields.empty() || !(*requested)->items.empty()) {
     reader.add_problem("reference: expected the parameters of a case, e.g. { alpha = 0, beta = 0 }, not " + std::string(type_text(*value)));
     return;
   }
   std::size_t n = 0;
   for (std::size_t i = 0; i < plan.cases.size(); ++i) {
-    if (!has_all(plan.cases[i], **wanted)) continue;
+    if (!has_all(plan.cases[i], **requested)) continue;
     plan.reference = i;
     ++n;
   }

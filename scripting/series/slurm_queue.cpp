@@ -12,7 +12,7 @@
 #include "geom/base/error.h"
 #include "io/output/atomic_file.h"
 #include "scripting/series/case_runners.h"
-#include "scripting/series/child_process.h"
+#include "scripting/series/worker_process.h"
 
 namespace sterna::scripting {
 namespace {
@@ -112,13 +112,13 @@ class SlurmArray {
   }
 
   void wait() {
-    Clock::time_point asked = Clock::now();
+    Clock::time_point requested = Clock::now();
     while (n_over_ < tasks_.size()) {
       if (runner_.run.stop_token().stop_requested()) cancel();
       take_finished();
-      if (Clock::now() - asked >= k_queue_pause && n_over_ < tasks_.size()) {
+      if (Clock::now() - requested >= k_queue_pause && n_over_ < tasks_.size()) {
         settle_lost();
-        asked = Clock::now();
+        requested = Clock::now();
       }
       std::this_thread::sleep_for(k_look_pause);
     }
@@ -146,7 +146,7 @@ class SlurmArray {
   }
 
   /// Returns the jobs in the queue; nothing if the queue does not answer.
-  std::optional<std::set<std::size_t>> ask_queue() {
+  std::optional<std::set<std::size_t>> query_queue() {
     try {
       std::set<std::size_t> jobs = jobs_in_queue(id_, runner_.run);
       if (n_deaf_ > 0) runner_.run.info("the queue responds again");
@@ -160,7 +160,7 @@ class SlurmArray {
   }
 
   void settle_lost() {
-    const std::optional<std::set<std::size_t>> answer = ask_queue();
+    const std::optional<std::set<std::size_t>> answer = query_queue();
     if (!answer) return;
     const std::set<std::size_t>& alive = *answer;
     for (std::size_t i = 0; i < tasks_.size(); ++i) {

@@ -17,18 +17,18 @@ constexpr const char* k_stage = "surface_mesh";
 constexpr std::size_t k_listed_parts = 4;
 
 /// Returns the key of all inputs of the surface; nothing if the inputs of a model are unknown.
-std::optional<ContentKey> surface_key_of(const std::vector<ModelHandle>& models, const SurfaceRecipe& asked, bool has_function, const RunContext& context) {
+std::optional<ContentKey> surface_key_of(const std::vector<ModelHandle>& models, const SurfaceRecipe& requested, bool has_function, const RunContext& context) {
   KeyMaker maker(k_stage);
   for (const ModelHandle& model : models) {
     if (!model->provenance.key()) return std::nullopt;
     maker.add(*model->provenance.key());
   }
-  return maker.add(scripting::key_of(asked)).add(has_function).add(context.seed()).key();
+  return maker.add(scripting::key_of(requested)).add(has_function).add(context.seed()).key();
 }
 
 /// Returns the key of a part; nothing if its inputs are unknown, or sizes depend on its location.
 std::optional<ContentKey> surface_key_of(const PartTask& task, const RunContext& context) {
-  if (!task.model_key || task.has_sizes_by_place) return std::nullopt;
+  if (!task.model_key || task.has_local_sizes) return std::nullopt;
   surfmesh::SurfaceMeshOptions options = task.options;
   KeyMaker maker("surface of a part");
   maker.add(*task.model_key).add(sterna::options_of(options)).add(task.patches).add(context.seed());
@@ -52,7 +52,7 @@ void write_parts(ByteSink& sink, const SurfaceValue& surface) {
   write_value(sink, parts);
   write_value(sink, changes);
   write_value(sink, changed);
-  write_value(sink, model_wall->places());
+  write_value(sink, model_wall->locations());
   static_cast<void>(options), static_cast<void>(union_options), static_cast<void>(repair_options), static_cast<void>(wrap_options),
       static_cast<void>(remesh_options);                         // a surface from surface_mesh has none
   static_cast<void>(inputs), static_cast<void>(model_wall_key);  // the reader of the entry knows them
@@ -60,7 +60,7 @@ void write_parts(ByteSink& sink, const SurfaceValue& surface) {
 
 SurfaceValue read_parts(ByteSource& source, const std::vector<ModelHandle>& models, const std::function<Model()>& all) {
   SurfaceValue surface;
-  surfmesh::WallPlaces places;
+  surfmesh::WallLocations locations;
   read_value(source, surface.mesh);
   read_value(source, surface.report);
   read_value(source, surface.recipe);
@@ -70,8 +70,8 @@ SurfaceValue read_parts(ByteSource& source, const std::vector<ModelHandle>& mode
   read_value(source, surface.parts);
   read_value(source, surface.changes);
   read_value(source, surface.changed);
-  read_value(source, places);
-  surface.model_wall = std::make_shared<const surfmesh::ModelWall>(all, std::move(places), surface.mesh.triangles);
+  read_value(source, locations);
+  surface.model_wall = std::make_shared<const surfmesh::ModelWall>(all, std::move(locations), surface.mesh.triangles);
   for (const ModelHandle& model : models) surface.inputs.insert(surface.inputs.end(), model->inputs.begin(), model->inputs.end());
   return surface;
 }
@@ -97,13 +97,13 @@ PartMesher cached_part_mesher(const Reuse& reuse) {
   return starting_mesher(reuse, ordinary, [](const PartTask& task, const RunContext& context) { return surface_key_of(task, context); });
 }
 
-SurfaceValue cached_surface(const std::vector<ModelHandle>& models, const SurfaceRecipe& asked, const SizeFunction& size,
+SurfaceValue cached_surface(const std::vector<ModelHandle>& models, const SurfaceRecipe& requested, const SizeFunction& size,
                             const std::function<SurfaceValue(const SizeFunction&)>& make, const std::function<Model()>& all, const Reuse& reuse,
                             const RunContext& context) {
   ReferenceUse* reference = reuse.reference;
   if (reference) reference->begin_surface();
   std::optional<ContentKey> key =
-      reuse.cache ? beside_reference(surface_key_of(models, asked, static_cast<bool>(size), context), reuse, context) : std::nullopt;
+      reuse.cache ? beside_reference(surface_key_of(models, requested, static_cast<bool>(size), context), reuse, context) : std::nullopt;
   if (key && reference && !reference->is_this())
     key = KeyMaker("call").add(*key).add(reference->surface()).key();  // results depend on the call number, because parts prefer to start from the same call
   if (!reuse.cache || !key)
@@ -121,9 +121,9 @@ SurfaceValue cached_surface(const std::vector<ModelHandle>& models, const Surfac
     if (reference) found = read_beside(source);
     return surface;
   };
-  const auto make_here = [&](const SizeFunction& asked_size) {
+  const auto make_here = [&](const SizeFunction& requested_size) {
     found.reset();  // the entry was not valid after all
-    return make(asked_size);
+    return make(requested_size);
   };
   SurfaceValue surface = size ? cached_by_answers<SurfaceValue>(reuse, k_stage, what, key, size, context, make_here, write, read)
                               : cached<SurfaceValue>(

@@ -24,7 +24,7 @@ PartMesher cached_part_mesher(const Reuse& reuse);
 /// Returns the surface that `make` makes of the models, or the cached result of the same call. A surface from the cache also refers to its models: `all` builds
 /// the geometry for its model wall when a vertex has to be moved to the model, which is rare.
 /// \throws what make() throws
-SurfaceValue cached_surface(const std::vector<ModelHandle>& models, const SurfaceRecipe& asked, const SizeFunction& size,
+SurfaceValue cached_surface(const std::vector<ModelHandle>& models, const SurfaceRecipe& requested, const SizeFunction& size,
                             const std::function<SurfaceValue(const SizeFunction&)>& make, const std::function<Model()>& all, const Reuse& reuse,
                             const RunContext& context);
 

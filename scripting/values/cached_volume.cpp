@@ -65,7 +65,7 @@ volmesh::EnvelopeStage cached_envelope(const SurfaceValue& wall, const volmesh::
   const std::optional<ContentKey> key = reuse.cache ? std::optional(envelope_key(wall.mesh, options, context)) : std::nullopt;
   return cached_with_reference<volmesh::EnvelopeStage>(reuse, "envelope", triangles_text(wall.mesh), key, context, [&] {
     volmesh::EnvelopeStage stage = volmesh::make_envelope(wall.mesh, options, makers_of(wall, options, reuse), context);
-    tell_other_envelopes(options.parts, reuse, context);
+    report_other_envelopes(options.parts, reuse, context);
     return stage;
   });
 }
@@ -114,7 +114,7 @@ volmesh::VolumeMeshResult cached_volume_mesh(const SurfaceValue& wall, const vol
     const std::optional<ContentKey> key = reuse.cache ? std::optional(envelope_key(wall.mesh, options, context)) : std::nullopt;
     return cached_with_reference<volmesh::EnvelopeStage>(reuse, "envelope", triangles_text(wall.mesh), key, context, [&] {
       volmesh::EnvelopeStage stage = make();
-      tell_other_envelopes(options.parts, reuse, context);
+      report_other_envelopes(options.parts, reuse, context);
       return stage;
     });
   };

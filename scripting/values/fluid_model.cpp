@@ -208,8 +208,8 @@ ModelValue fluid_of(ModelValue all, const RunContext& context) {
                    .problem = "the model has open surfaces",
                    .hint = "only closed bodies have an inside: read_cad{ ..., cap = true } closes flat openings"};
     for (const OpenEdge& edge : open)
-      if (info.places.size() < 5) info.places.push_back({edge.middle, "open edge of face \"" + edge.face + "\""});
-    info.n_places = static_cast<std::int64_t>(open.size());
+      if (info.locations.size() < 5) info.locations.push_back({edge.middle, "open edge of face \"" + edge.face + "\""});
+    info.n_locations = static_cast<std::int64_t>(open.size());
     throw Error(std::move(info));
   }
   if (solids.containers.size() > 1)
@@ -246,7 +246,7 @@ ModelValue fluid_of(ModelValue all, const RunContext& context) {
 namespace {
 
 /// Reports asymmetry in the same way as half_of does for surfaces.
-void tell_asymmetry(const Model& model, const HalfModelOptions& options, const RunContext& context) {
+void report_asymmetry(const Model& model, const HalfModelOptions& options, const RunContext& context) {
   constexpr double k_tolerance = 5e-5, k_clear = 4.0;  // k_tolerance is the distance of facets from the surface (their corners are on it), relative to the
                                                        // longest side; gaps above k_clear * k_tolerance are reported
   const surfmesh::ModelFacets facets = surfmesh::facets_of(model, {.tolerance = k_tolerance}, context);
@@ -270,7 +270,7 @@ ModelValue half_of_model(const ModelValue& whole, const HalfModelOptions& option
   if (free_edges(value.model).empty()) refit_for_cad(value.model, context);
   HalfModel half = cad::half_model(value.model, options, context);
   const HalfModelReport& r = half.report;
-  if (!r.was_half) tell_asymmetry(whole.model, options, context);
+  if (!r.was_half) report_asymmetry(whole.model, options, context);
   value.model = std::move(half.model);
   value.parts.clear();
   value.report = r.was_half
@@ -279,7 +279,7 @@ ModelValue half_of_model(const ModelValue& whole, const HalfModelOptions& option
   if (r.n_solids_left_out > 0) value.report += fmt::format(", {} solids of the other half removed", r.n_solids_left_out);
   if (r.n_faces_split > 0) value.report += fmt::format(", {} closed faces split at their seams", r.n_faces_split);
   if (r.n_flat_faces > 0) value.report += fmt::format(", {} faces in the plane removed", r.n_flat_faces);
-  value.report += fmt::format("; boundary of {} edges, {:.4g} m, moved by at most {:.3g} m into the plane", r.n_rim_edges, r.rim_length, r.largest_shift);
+  value.report += fmt::format("; boundary of {} edges, {:.4g} m, moved by at most {:.3g} m into the plane", r.n_border_edges, r.border_length, r.largest_shift);
   context.info(value.report);
   value.description.reset();
   value.without_description = "it is half of a model";

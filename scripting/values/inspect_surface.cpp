@@ -17,7 +17,7 @@
 #include "io/file/volume_file.h"
 #include "io/output/atomic_file.h"
 #include "scripting/values/model_surface.h"
-#include "scripting/values/stages.h"
+#include "scripting/values/stored_stages.h"
 #include "scripting/values/summary.h"
 #include "scripting/values/surface_items.h"
 #include "scripting/values/wall_files.h"
@@ -36,8 +36,8 @@ using PlainJson = nlohmann::json;
 constexpr double k_joined = 0.3;     ///< progress after files have been read and joined
 constexpr double k_inspected = 0.9;  ///< progress after the inspection; the rest is the required preparation
 constexpr double k_percent = 100.0;
-constexpr double k_many_triangles = 1e6;          ///< above this number of triangles, the faces that cause it are reported
-constexpr double k_read = 0.3, k_foretold = 0.4;  ///< progress for models: after files have been read, and after triangles have been predicted
+constexpr double k_many_triangles = 1e6;              ///< above this number of triangles, the faces that cause it are reported
+constexpr double k_read = 0.3, k_forecast_end = 0.4;  ///< progress for models: after files have been read, and after triangles have been predicted
 
 FindingKind kind_of(ErrorCode code) {
   switch (code) {
@@ -55,9 +55,9 @@ bool is_of_surface(ErrorCode code) { return kind_of(code) != FindingKind::refuse
 
 Finding finding_of(const Error& error, const InspectRequest& request) {
   const ErrorInfo& info = error.info();
-  Finding finding{.kind = kind_of(info.code), .severity = Severity::error, .count = error.n_places(), .text = info.problem, .advice = info.hint};
-  const std::size_t n = std::min(info.places.size(), static_cast<std::size_t>(request.limits.max_places));
-  for (std::size_t i = 0; i < n; ++i) finding.places.push_back({info.places[i].position, {}, 0.0, info.places[i].what});
+  Finding finding{.kind = kind_of(info.code), .severity = Severity::error, .count = error.n_locations(), .text = info.problem, .advice = info.hint};
+  const std::size_t n = std::min(info.locations.size(), static_cast<std::size_t>(request.limits.max_places));
+  for (std::size_t i = 0; i < n; ++i) finding.locations.push_back({info.locations[i].position, {}, 0.0, info.locations[i].what});
   return finding;
 }
 
@@ -75,9 +75,9 @@ std::vector<std::string> names_of(std::span<const InputPath> files) {
 }
 
 /// Returns the corner angle below which volume_mesh treats a triangle as a sliver. If this is disabled, returns the angle that it would have.
-double needle_limit_of(const InspectRequest& request) {
-  const double asked = request.volume.needles.split_needles;
-  return asked > 0.0 ? asked : volmesh::NeedleOptions{}.split_needles;
+double sliver_limit_of(const InspectRequest& request) {
+  const double requested = request.volume.needles.split_needles;
+  return requested > 0.0 ? requested : volmesh::SliverOptions{}.split_needles;
 }
 
 /// Returns all triangles as given in the files, in metres. Only coincident corners of STL are joined.
@@ -121,7 +121,7 @@ void add_repairs(const SurfaceValue& wall, const WallFiles& files, const Inspect
     finding.advice = "no action required: volume_mesh reads the surface the same way. `sterna convert` writes the repaired surface for other programs";
     for (std::size_t i = 0; i < std::min(turned.size(), static_cast<std::size_t>(request.limits.max_places)); ++i) {
       const auto [a, b, c] = corners(wall.mesh, turned[i]);
-      finding.places.push_back(
+      finding.locations.push_back(
           {(a + b + c) / 3.0, wall.mesh.patches[wall.mesh.triangle_patch[turned[i]]].name, 0.0, "triangle " + std::to_string(turned[i].value())});
     }
     volmesh::add_finding(report, std::move(finding), turned);
@@ -151,8 +151,8 @@ std::optional<Finding> many_triangles_of(const surfmesh::SurfaceForecast& foreca
   finding.advice = most.advice + " (--set surface_mesh.min_edge=LENGTH and so on, or for this face only --patch \"" + most.name + ":...\")";
   for (std::size_t i = 0; i < std::min(forecast.largest.size(), static_cast<std::size_t>(request.limits.max_places)); ++i) {
     const surfmesh::FaceForecast& face = forecast.largest[i];
-    finding.places.push_back({face.place, face.name, face.n_triangles,
-                              fmt::format("about {} triangles, edges down to {:.3g} m: {}", count_text_of(face.n_triangles), face.least_edge, face.rule)});
+    finding.locations.push_back({face.location, face.name, face.n_triangles,
+                                 fmt::format("about {} triangles, edges down to {:.3g} m: {}", count_text_of(face.n_triangles), face.least_edge, face.rule)});
   }
   return finding;
 }
@@ -175,7 +175,7 @@ void foresee_remesh(const TriMesh& wall, const InspectRequest& request, Inspecti
                              count_text_of(forecast.n_triangles), forecast.patch, k_percent * forecast.of_patch / forecast.n_triangles, forecast.least_edge,
                              forecast.is_by_longest ? "max_edge" : "curvature or narrow regions");
   finding.advice = forecast.is_by_longest ? "a larger max_edge of remesh" : "a larger curvature_angle or min_edge of remesh";
-  if (request.limits.max_places > 0) finding.places.push_back({forecast.place, forecast.patch, forecast.least_edge, "the shortest edges"});
+  if (request.limits.max_places > 0) finding.locations.push_back({forecast.location, forecast.patch, forecast.least_edge, "the shortest edges"});
   replace_finding(report, std::move(finding));
 }
 
@@ -210,10 +210,10 @@ Inspection inspect_files(std::span<const InputPath> inputs, const surfmesh::Stit
     static_cast<InspectReport&>(report) = volmesh::inspect_triangles(triangles_of(files), request, inspecting);
     replace_finding(report, std::move(*refusal));
   }
-  AutoSurface asked;
-  asked.stitching = files.wall.options;
+  AutoSurface requested;
+  requested.stitching = files.wall.options;
   report.preparation =
-      foresee_preparation(files.soups, report, asked, needle_limit_of(request), names_of(inputs), false, context.part("foresee", k_inspected, 1.0));
+      foresee_preparation(files.soups, report, requested, sliver_limit_of(request), names_of(inputs), false, context.part("foresee", k_inspected, 1.0));
   if (wall) foresee_remesh(wall->mesh, request, report, context.part("remesh", 1.0, 1.0));
   return report;
 }
@@ -226,9 +226,9 @@ Inspection inspect_joined(const SurfaceValue& surface, InspectRequest request, b
   static_cast<InspectReport&>(report) = volmesh::inspect_wall(surface.mesh, request, context.part("inspect", 0.0, k_inspected));
   const SurfaceHandle borrowed(SurfaceHandle(), &surface);
   const std::array items = {UnionItem(borrowed)};
-  AutoSurface asked;
-  asked.stitching.fluid = surface.options.fluid;
-  report.preparation = foresee_preparation(read_items(items, asked.stitching, context).soups, report, asked, needle_limit_of(request), {}, must_close,
+  AutoSurface requested;
+  requested.stitching.fluid = surface.options.fluid;
+  report.preparation = foresee_preparation(read_items(items, requested.stitching, context).soups, report, requested, sliver_limit_of(request), {}, must_close,
                                            context.part("foresee", k_inspected, 1.0));
   if (!surface.model_wall) foresee_remesh(surface.mesh, request, report, context.part("remesh", 1.0, 1.0));
   return report;
@@ -249,7 +249,7 @@ Inspection inspect_models(std::span<const InputPath> files, const ReadCadOptions
   std::optional<Finding> many;
   try {
     const surfmesh::SurfaceForecast forecast =
-        forecast_models(models.models, models.recipe, context.part("forecast", k_joined * k_read, k_joined * k_foretold));
+        forecast_models(models.models, models.recipe, context.part("forecast", k_joined * k_read, k_joined * k_forecast_end));
     expected = forecast.n_triangles;
     many = many_triangles_of(forecast, request);
   } catch (const Error& error) {
@@ -257,7 +257,7 @@ Inspection inspect_models(std::span<const InputPath> files, const ReadCadOptions
     context.info("inspect: the number of triangles cannot be predicted: " + error.info().problem);
   }
   if (many) context.warn(many->text + "; try " + many->advice);
-  const RunContext meshing = context.part("surface", k_joined * k_foretold, k_joined);
+  const RunContext meshing = context.part("surface", k_joined * k_forecast_end, k_joined);
   try {
     surface = mesh_model_files(models, meshing);
   } catch (const Error& error) {
@@ -327,8 +327,8 @@ std::string text_of(const Inspection& report, const std::string& name) {
     text += fmt::format("  sizes {:<13} about {} triangles are predicted\n", "of remesh", count_text_of(*report.remeshed_triangles));
   for (const Finding& finding : report.findings) {
     text += fmt::format("  {:<5} {:<13} {}\n", to_string(finding.severity), to_string(finding.kind), finding.text);
-    for (const volmesh::FindingPlace& place : finding.places)
-      text += fmt::format("        at {}{}: {}\n", format_point(place.position), place.patch.empty() ? "" : " on " + place.patch, place.what);
+    for (const volmesh::FindingLocation& location : finding.locations)
+      text += fmt::format("        at {}{}: {}\n", format_point(location.position), location.patch.empty() ? "" : " on " + location.patch, location.what);
     if (!finding.advice.empty()) text += "        try: " + finding.advice + "\n";
   }
   if (report.layer.is_known) text += "  " + prediction_of(report.layer) + "\n";
@@ -354,9 +354,9 @@ std::string json_of(const Inspection& report, const std::string& name) {
   json["preparation"] = PlainJson::parse(json_of(report.preparation));
   json["findings"] = PlainJson::array();
   for (const Finding& finding : report.findings) {
-    PlainJson places = PlainJson::array();
-    for (const volmesh::FindingPlace& place : finding.places)
-      places.push_back({{"at", point(place.position)}, {"patch", place.patch}, {"value", number(place.value)}, {"what", place.what}});
+    PlainJson locations = PlainJson::array();
+    for (const volmesh::FindingLocation& location : finding.locations)
+      locations.push_back({{"at", point(location.position)}, {"patch", location.patch}, {"value", number(location.value)}, {"what", location.what}});
     json["findings"].push_back({{"kind", to_string(finding.kind)},
                                 {"severity", to_string(finding.severity)},
                                 {"count", finding.count},
@@ -366,7 +366,7 @@ std::string json_of(const Inspection& report, const std::string& name) {
                                 {"unit", finding.unit},
                                 {"text", finding.text},
                                 {"advice", finding.advice},
-                                {"places", std::move(places)}});
+                                {"places", std::move(locations)}});
   }
   if (report.layer.is_known) {
     const volmesh::LayerPrediction& layer = report.layer;
@@ -413,7 +413,7 @@ TriMesh by_finding(const InspectReport& report) {
 void draw_inspection(const InspectReport& report, const std::filesystem::path& path, const RunContext& context) {
   std::vector<DrawMark> marks;
   for (const Finding& finding : report.findings)
-    if (!finding.places.empty()) marks.push_back({finding.places.front().position, std::string(to_string(finding.severity)) + ": " + finding.text});
+    if (!finding.locations.empty()) marks.push_back({finding.locations.front().position, std::string(to_string(finding.severity)) + ": " + finding.text});
   DrawOptions options;
   options.places = true;
   io::write_whole(path, draw_png(by_finding(report), options, "inspection", marks, context));

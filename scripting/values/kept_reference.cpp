@@ -102,14 +102,14 @@ void ReferenceUse::keep(KeptEnvelope envelope) {
 void ReferenceUse::note_carried(const TriMesh& mesh, const std::string& name) { carried_.push_back({triangles_key(mesh), name, false}); }
 
 CarriedPart* ReferenceUse::carried(const ContentKey& triangles) {
-  for (const bool is_told : {false, true})  // parts without a reported envelope first, so that each of several mirror images with the same triangles is
-                                            // returned once
+  for (const bool is_reported : {false, true})  // parts without a reported envelope first, so that each of several mirror images with the same triangles is
+                                                // returned once
     for (CarriedPart& part : carried_)
-      if (part.triangles == triangles && part.has_envelope == is_told) return &part;
+      if (part.triangles == triangles && part.has_envelope == is_reported) return &part;
   return nullptr;
 }
 
-void ReferenceUse::tell(const std::string& line, const Reuse& reuse, const RunContext& context) {
+void ReferenceUse::report(const std::string& line, const Reuse& reuse, const RunContext& context) {
   context.info(line);
   lines_.push_back(line);
   if (reuse.lines != nullptr) reuse.lines->push_back(line);
@@ -124,7 +124,7 @@ void ReferenceUse::take(Beside beside, const Reuse& reuse, const RunContext& con
   for (KeptPart& part : beside.parts) keep(std::move(part));
   for (KeptEnvelope& envelope : beside.envelopes) keep(std::move(envelope));
   std::move(beside.carried.begin(), beside.carried.end(), std::back_inserter(carried_));
-  for (const std::string& line : beside.lines) tell(line, reuse, context);
+  for (const std::string& line : beside.lines) report(line, reuse, context);
 }
 
 }  // namespace sterna::scripting

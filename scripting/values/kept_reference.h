@@ -31,7 +31,7 @@ struct KeptPart {
   ContentKey geometry;  ///< key of the points of its vertices on the model (carried_points); equal keys mean equal geometry
   surfmesh::SurfaceMeshOptions options;
   std::vector<surfmesh::PatchSurfaceOptions> patches;
-  bool has_sizes_by_place = false;  ///< sources or a size function apply to the part
+  bool has_local_sizes = false;  ///< sources or a size function apply to the part
 };
 
 /// The envelope of a part alone, or of a whole wall.
@@ -82,7 +82,7 @@ class ReferenceUse {
   std::vector<CarriedPart>& all_carried() { return carried_; }
 
   /// Reports a line to the log, and adds it to the list of what the case reused.
-  void tell(const std::string& line, const Reuse& reuse, const RunContext& context);
+  void report(const std::string& line, const Reuse& reuse, const RunContext& context);
 
   /// Writes the kept file, atomically.
   /// \pre is_this()

@@ -13,9 +13,10 @@ Json shares_json(const std::vector<std::pair<std::string, double>>& shares) {
   return json;
 }
 
-Json places_json(const std::vector<ErrorPlace>& places) {
+Json locations_json(const std::vector<ErrorLocation>& locations) {
   Json json = Json::array();
-  for (const ErrorPlace& place : places) json.push_back({{"at", {place.position.x, place.position.y, place.position.z}}, {"what", place.what}});
+  for (const ErrorLocation& location : locations)
+    json.push_back({{"at", {location.position.x, location.position.y, location.position.z}}, {"what", location.what}});
   return json;
 }
 
@@ -43,8 +44,8 @@ Json first_node_json(const volmesh::LayerReport& layer) {
   return {{"vertices_within_2_percent", first.vertex_share},
           {"smooth_facet_area_within_2_percent", first.facet_share},
           {"ridge_area", first.ridge_area},
-          {"worst_vertex", {{"deviation", first.worst_vertex}, {"at", at(first.worst_vertex_place)}}},
-          {"worst_facet", {{"deviation", first.worst_facet}, {"at", at(first.worst_facet_place)}}}};
+          {"worst_vertex", {{"deviation", first.worst_vertex}, {"at", at(first.worst_vertex_location)}}},
+          {"worst_facet", {{"deviation", first.worst_facet}, {"at", at(first.worst_facet_location)}}}};
 }
 
 /// Returns the fractions of the wall's vertices by the angle at which their worst facet is visible.
@@ -79,26 +80,26 @@ std::string layer_json(const volmesh::LayerReport& layer) {
                        {"within_of_full", layer.interface.within_of_full}};
   json["reduced_curving"] = layer.reduced_curving;
   json["patches"] = patch_coverage_json(layer);
-  json["most_compressed"] = places_json(layer.compressed);
-  json["collapsed"] = places_json(layer.collapsed);
+  json["most_compressed"] = locations_json(layer.compressed);
+  json["collapsed"] = locations_json(layer.collapsed);
   json["warnings"] = layer.warnings;
   return json.dump();
 }
 
-std::string needles_json(const volmesh::NeedleReport& needles) {
-  const Json json = {{"given_triangles", needles.n_given},
-                     {"triangles", needles.n_triangles},
-                     {"needles", needles.n_needles},
-                     {"flipped_edges", needles.n_flips},
-                     {"left", needles.n_left},
-                     {"over_budget", needles.is_over_budget},
-                     {"first_left", {needles.first_left.x, needles.first_left.y, needles.first_left.z}}};
+std::string slivers_json(const volmesh::SliverReport& slivers) {
+  const Json json = {{"given_triangles", slivers.n_given},
+                     {"triangles", slivers.n_triangles},
+                     {"needles", slivers.n_slivers},
+                     {"flipped_edges", slivers.n_flips},
+                     {"left", slivers.n_left},
+                     {"over_budget", slivers.is_over_budget},
+                     {"first_left", {slivers.first_left.x, slivers.first_left.y, slivers.first_left.z}}};
   return json.dump();
 }
 
 std::string certificate_json(const volmesh::EnvelopeCertificate& certificate) {
   const auto worst = [](const volmesh::WorstElement& element) {
-    return Json{{"quality", element.quality}, {"at", {element.place.x, element.place.y, element.place.z}}, {"what", element.what}};
+    return Json{{"quality", element.quality}, {"at", {element.location.x, element.location.y, element.location.z}}, {"what", element.what}};
   };
   const Json json = {{"proved", certificate.is_proved()},
                      {"boundary_triangles", certificate.n_triangles},

@@ -11,7 +11,7 @@ namespace sterna::scripting {
 /// area at full height along the normal, at the height that the geometry permits, compressed and collapsed, and the lost area by reason.
 std::string layer_json(const volmesh::LayerReport& layer);
 /// Returns a JSON object: number of sliver triangles of the wall, of edges flipped, of triangles before and after, and of remaining slivers.
-std::string needles_json(const volmesh::NeedleReport& needles);
+std::string slivers_json(const volmesh::SliverReport& slivers);
 /// Returns a JSON object: tested properties, failures (none), and the worst elements with their locations.
 std::string certificate_json(const volmesh::EnvelopeCertificate& certificate);
 

@@ -12,7 +12,7 @@
 #include "scripting/values/layer_json.h"
 #include "scripting/values/model_surface.h"
 #include "scripting/values/patch_rules.h"
-#include "scripting/values/periodic_sides.h"
+#include "scripting/values/periodic_pairs.h"
 #include "scripting/values/wake_verbs.h"
 
 namespace sterna::scripting {
@@ -80,7 +80,8 @@ Json periodic_sides_json(const MeshValue& mesh) {
 
 Json improvement_json(const volmesh::ImproveReport& report) {
   Json remaining = Json::array();
-  for (const ErrorPlace& place : report.remaining) remaining.push_back({{"at", {place.position.x, place.position.y, place.position.z}}, {"what", place.what}});
+  for (const ErrorLocation& location : report.remaining)
+    remaining.push_back({{"at", {location.position.x, location.position.y, location.position.z}}, {"what", location.what}});
   return {{"bad_before", report.n_bad_before},
           {"bad_after", report.n_bad_after},
           {"bad_off_boundary", report.n_bad_free_after},
@@ -165,7 +166,7 @@ std::string manifest_json(const MeshValue& mesh, const std::filesystem::path& ou
     if (!mesh.origin->tetra_failures.empty()) json["tetra_failures"] = mesh.origin->tetra_failures;
     if (!mesh.origin->tetra_choice.empty()) json["tetra_choice"] = mesh.origin->tetra_choice;
     if (mesh.origin->n_split_triangles > 0) json["boundary_triangles_added_by_splits"] = mesh.origin->n_split_triangles;
-    if (mesh.origin->needles.n_needles > 0) json["needles"] = Json::parse(needles_json(mesh.origin->needles));
+    if (mesh.origin->slivers.n_slivers > 0) json["needles"] = Json::parse(slivers_json(mesh.origin->slivers));
     if (!mesh.origin->is_reproducible) json["reproducible"] = "not reproducible: a time or memory limit decided which engine made the tetrahedra";
   }
   json["verdict"] = !mesh.check ? "not checked" : mesh.check->is_valid() ? "VALID" : "INVALID";

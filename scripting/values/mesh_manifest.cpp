@@ -118,8 +118,8 @@ void add_periodic_sides(HybridMesh& mesh, const Json& json, const InputPath& fil
 /// Sets the requested smallest first height and largest growth, if they are numbers. For a member of a family these are h0/f and r^(1/f) (layer_choice.h).
 void add_request(HybridMesh& mesh, const Json& json) {
   if (mesh.request.is_known() || json.contains("first_heights")) return;
-  const auto number = [](const Json& from, const char* place) -> std::optional<double> {
-    const Json::json_pointer at(place);
+  const auto number = [](const Json& from, const char* location) -> std::optional<double> {
+    const Json::json_pointer at(location);
     return from.contains(at) && from.at(at).is_number() ? std::optional(from.at(at).get<double>()) : std::nullopt;
   };
   const auto height = number(json, "/options/envelope/first_height"), growth = number(json, "/options/envelope/max_growth");

@@ -5,14 +5,14 @@
 
 #include "geom/base/glob.h"
 #include "surfmesh/model/join_parts.h"
-#include "surfmesh/model/periodic_rims.h"
+#include "surfmesh/model/periodic_borders.h"
 
 namespace sterna::scripting {
 namespace {
 
 using surfmesh::SpaceSizes;
 
-bool says_something(const SpaceSizes& sizes) { return sizes.regions || sizes.function || !sizes.samples.empty(); }
+bool has_sizes(const SpaceSizes& sizes) { return sizes.regions || sizes.function || !sizes.samples.empty(); }
 
 /// Returns the sizes at the locations to which `placement` takes points of the part's own frame.
 SpaceSizes in_frame(const SpaceSizes& sizes, const Transform& placement) {
@@ -21,7 +21,7 @@ SpaceSizes in_frame(const SpaceSizes& sizes, const Transform& placement) {
   if (sizes.regions) own.regions = [regions = sizes.regions, placement](const Point& p, double slope) { return regions(placement.point(p), slope); };
   if (sizes.function) own.function = [function = sizes.function, placement](const Point& p) { return function(placement.point(p)); };
   const Transform back = placement.inverse();
-  for (const SizeSite& sample : sizes.samples) own.samples.push_back({back.point(sample.point), sample.size});
+  for (const SizePoint& sample : sizes.samples) own.samples.push_back({back.point(sample.point), sample.size});
   return own;
 }
 
@@ -59,7 +59,7 @@ std::string pairs_for(const Model& part, const Model& all, std::vector<surfmesh:
 std::string name_of(const Model& part) { return part.components.size() == 0 ? part.faces.raw().front().name : part.components.raw().front().name; }
 
 PartsMesh mesh_in_place(const ModelValue& value, const SurfaceRecipe& recipe, const SpaceSizes& sizes, const PartMesher& mesher, const RunContext& context) {
-  if (mesher) return {mesher({value.model, recipe.options, recipe.patches, sizes, says_something(sizes), {}, {}}, context), {}};
+  if (mesher) return {mesher({value.model, recipe.options, recipe.patches, sizes, has_sizes(sizes), {}, {}}, context), {}};
   return {surfmesh::mesh_model(value.model, recipe.options, recipe.patches, sizes, context), {}};
 }
 
@@ -84,7 +84,7 @@ PartsMesh mesh_parts(const ModelValue& value, const SurfaceRecipe& recipe, const
   }
   std::vector<PartTask> tasks;
   for (std::size_t i = 0; i < parts.size(); ++i) {
-    PartTask task{own_model(value, parts, i), recipe.options, {}, in_frame(sizes, parts[i].placement), says_something(sizes), parts[i].placement, parts[i].key};
+    PartTask task{own_model(value, parts, i), recipe.options, {}, in_frame(sizes, parts[i].placement), has_sizes(sizes), parts[i].placement, parts[i].key};
     task.patches = rules_for(task.model, value.model, recipe.patches);
     task.options.periodic = pairs_for(task.model, value.model, pairs);
     tasks.push_back(std::move(task));

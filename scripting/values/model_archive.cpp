@@ -37,10 +37,10 @@ T take(ByteSource& source) {
 
 template <class T>
 bool ModelWriter::is_known(const std::shared_ptr<const T>& object) {
-  const auto place = object ? known_.find(object.get()) : known_.end();
-  write_value(sink_, !object ? Presence::none : place != known_.end() ? Presence::known : Presence::written);
-  if (place != known_.end()) write_value(sink_, place->second);
-  return !object || place != known_.end();
+  const auto location = object ? known_.find(object.get()) : known_.end();
+  write_value(sink_, !object ? Presence::none : location != known_.end() ? Presence::known : Presence::written);
+  if (location != known_.end()) write_value(sink_, location->second);
+  return !object || location != known_.end();
 }
 
 // An object gets its number among those of its class when it is completely written, because this is the order of reading.

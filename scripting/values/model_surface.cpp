@@ -17,11 +17,11 @@
 #include "scripting/values/fluid_model.h"
 #include "scripting/values/mesh_parts.h"
 #include "scripting/values/patch_rules.h"
-#include "scripting/values/periodic_sides.h"
+#include "scripting/values/periodic_pairs.h"
 #include "scripting/values/start_from_reference.h"
 #include "scripting/values/summary.h"
 #include "scripting/values/value_keys.h"
-#include "surfmesh/model/periodic_rims.h"
+#include "surfmesh/model/periodic_borders.h"
 #include "volmesh/case/size_sources.h"
 
 namespace sterna {
@@ -236,11 +236,11 @@ void add_rules(const std::vector<ModelHandle>& models, const ModelValue& all, Su
     if (model->description) put_first(rules_of(*model->description, all.model), recipe);
 }
 
-SurfaceValue mesh_anew(const std::vector<ModelHandle>& models, const SurfaceRecipe& asked, const std::function<double(const Point&)>& size,
-                       const RunContext& context, const Reuse& reuse) {
+SurfaceValue mesh_from_scratch(const std::vector<ModelHandle>& models, const SurfaceRecipe& requested, const std::function<double(const Point&)>& size,
+                               const RunContext& context, const Reuse& reuse) {
   const ModelValue all = fluid_of(assemble(models, context), context);
   doubt_size(all.model, context);
-  SurfaceRecipe recipe = asked;
+  SurfaceRecipe recipe = requested;
   add_rules(models, all, recipe);
   PartsMesh made = mesh_parts(all, recipe, space_sizes(recipe, size), cached_part_mesher(reuse), context,
                               reuse.reference ? starting_mesher(reuse, mesh_part) : PartMesher());
@@ -267,7 +267,7 @@ SurfaceValue mesh_anew(const std::vector<ModelHandle>& models, const SurfaceReci
 }  // namespace
 
 surfmesh::SpaceSizes space_sizes(const SurfaceRecipe& recipe, const std::function<double(const Point&)>& size) {
-  surfmesh::SpaceSizes asked{.regions = {}, .function = size, .samples = {}};
+  surfmesh::SpaceSizes requested{.regions = {}, .function = size, .samples = {}};
   std::vector<volmesh::SizeSource> regions;
   for (const volmesh::SizeSource& source : recipe.sources) {
     if (const std::string problem = problem_of(source, recipe.options.growth); !problem.empty())
@@ -275,15 +275,15 @@ surfmesh::SpaceSizes space_sizes(const SurfaceRecipe& recipe, const std::functio
                    .attempted = "reading the sources of a surface mesh",
                    .problem = std::string(to_string(source.kind)) + ": " + problem});
     if (source.kind != volmesh::SourceKind::samples) regions.push_back(source);
-    for (std::size_t i = 0; i < source.points.size(); ++i) asked.samples.push_back({source.points[i], source.sizes[i]});
+    for (std::size_t i = 0; i < source.points.size(); ++i) requested.samples.push_back({source.points[i], source.sizes[i]});
   }
   if (!regions.empty())
-    asked.regions = [regions = std::move(regions)](const Point& p, double slope) {
+    requested.regions = [regions = std::move(regions)](const Point& p, double slope) {
       double least = std::numeric_limits<double>::infinity();
       for (const volmesh::SizeSource& source : regions) least = std::min(least, size_of(source, p, slope));
       return least;
     };
-  return asked;
+  return requested;
 }
 
 std::string sources_text(const std::vector<volmesh::SizeSource>& sources, bool has_function) {
@@ -333,21 +333,23 @@ std::string surface_mesh_text(const Model& model, const SurfaceValue& surface) {
     if (open.size() > k_listed) text += fmt::format("\n  open      and {} more edges of the model", open.size() - k_listed);
   }
   for (std::size_t i = 0; i < std::min(k_listed, report.absorbed.size()); ++i)
-    text += fmt::format("\n  absorbed  {} at {}, {:.3g} m", report.absorbed[i].what, format_point(report.absorbed[i].place), report.absorbed[i].size);
+    text += fmt::format("\n  absorbed  {} at {}, {:.3g} m", report.absorbed[i].what, format_point(report.absorbed[i].location), report.absorbed[i].size);
   if (report.absorbed.size() > k_listed) text += fmt::format("\n  absorbed  and {} more", report.absorbed.size() - k_listed);
   return text;
 }
 
-SurfaceValue mesh_models(const std::vector<ModelHandle>& models, const SurfaceRecipe& asked, const std::function<double(const Point&)>& size,
+SurfaceValue mesh_models(const std::vector<ModelHandle>& models, const SurfaceRecipe& requested, const std::function<double(const Point&)>& size,
                          const RunContext& context, const Reuse& reuse) {
   const StageTimer timer(context, "surface_mesh");
-  const auto make = [&](const std::function<double(const Point&)>& asked_size) { return mesh_anew(models, asked, asked_size, context, reuse); };
+  const auto make = [&](const std::function<double(const Point&)>& requested_size) {
+    return mesh_from_scratch(models, requested, requested_size, context, reuse);
+  };
   // This runs in the thread that first needs the model, and therefore uses no additional threads.
   const auto all = [models, stop = context.stop_token(), seed = context.seed()] {
     const RunContext quiet({.threads = 1, .seed = seed, .stop = stop});
     return fluid_of(assemble(models, quiet), quiet).model;
   };
-  return cached_surface(models, asked, size, make, all, reuse, context);
+  return cached_surface(models, requested, size, make, all, reuse, context);
 }
 
 ModelsOfFiles read_model_files(std::span<const InputPath> files, const ReadCadOptions& reading, const SurfaceRecipe& recipe, const RunContext& context,
@@ -386,9 +388,9 @@ SurfaceValue mesh_model_files(std::span<const InputPath> files, const ReadCadOpt
   return mesh_model_files(read_model_files(files, reading, recipe, context, periodic), context, reuse);
 }
 
-surfmesh::SurfaceForecast forecast_models(const std::vector<ModelHandle>& models, const SurfaceRecipe& asked, const RunContext& context) {
+surfmesh::SurfaceForecast forecast_models(const std::vector<ModelHandle>& models, const SurfaceRecipe& requested, const RunContext& context) {
   const ModelValue all = fluid_of(assemble(models, context), context);
-  SurfaceRecipe recipe = asked;
+  SurfaceRecipe recipe = requested;
   add_rules(models, all, recipe);
   return surfmesh::forecast_surface(all.model, recipe.options, recipe.patches, space_sizes(recipe, {}), context);
 }

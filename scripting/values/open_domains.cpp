@@ -24,13 +24,13 @@ constexpr double k_sheet_vector = 0.6;     ///< fraction of the area; the area v
                                            ///< 0.5
 constexpr double k_main_part = 0.5;        ///< fraction of the total area that the main part must have
 
-std::string plane_text(const volmesh::RimPlane& plane) { return fmt::format("{} = {:.6g} m", "xyz"[plane.axis], plane.at); }
+std::string plane_text(const volmesh::OpenBorderPlane& plane) { return fmt::format("{} = {:.6g} m", "xyz"[plane.axis], plane.at); }
 
-bool is_opening(const volmesh::RimPlane& plane, const Box& box) {
+bool is_opening(const volmesh::OpenBorderPlane& plane, const Box& box) {
   double widest = 0.0, body = 0.0, area = 1.0;
   for (std::size_t k = 0; k < 3; ++k) {
     if (k == plane.axis) continue;
-    const double side = plane.rim.max[k] - plane.rim.min[k];
+    const double side = plane.border.max[k] - plane.border.min[k];
     widest = std::max(widest, side);
     body = std::max(body, box.max[k] - box.min[k]);
     area *= side;
@@ -39,13 +39,13 @@ bool is_opening(const volmesh::RimPlane& plane, const Box& box) {
 }
 
 /// Returns true if two parallel planes are so far apart that the surface between them is a tube.
-bool is_tube(const std::vector<volmesh::RimPlane>& planes) {
-  for (const volmesh::RimPlane& a : planes)
-    for (const volmesh::RimPlane& b : planes) {
+bool is_tube(const std::vector<volmesh::OpenBorderPlane>& planes) {
+  for (const volmesh::OpenBorderPlane& a : planes)
+    for (const volmesh::OpenBorderPlane& b : planes) {
       if (a.axis != b.axis || a.at >= b.at) continue;
       double widest = 0.0;
       for (std::size_t k = 0; k < 3; ++k)
-        if (k != a.axis) widest = std::max(widest, a.rim.max[k] - a.rim.min[k]);
+        if (k != a.axis) widest = std::max(widest, a.border.max[k] - a.border.min[k]);
       if (b.at - a.at > k_longest_section * widest) return true;
     }
   return false;
@@ -54,19 +54,19 @@ bool is_tube(const std::vector<volmesh::RimPlane>& planes) {
 }  // namespace
 
 std::optional<std::string> ends_in_planes(const TriMesh& mesh, const RunContext& context) {
-  std::vector<volmesh::RimPlane> planes;
+  std::vector<volmesh::OpenBorderPlane> planes;
   try {
-    planes = volmesh::rim_planes_of(mesh, context);
+    planes = volmesh::open_border_planes_of(mesh, context);
   } catch (const Error& error) {
     if (error.code() == ErrorCode::cancelled) throw;
     return std::nullopt;
   }
   std::array<int, 3> n_across{};
-  for (const volmesh::RimPlane& plane : planes) ++n_across[plane.axis];
+  for (const volmesh::OpenBorderPlane& plane : planes) ++n_across[plane.axis];
   const bool is_between_four = std::ranges::count(n_across, 2) > 1;
   const Box box = bounding_box(mesh);
   if (planes.empty() || planes.size() > 3 || is_between_four || is_tube(planes)) return std::nullopt;
-  if (!std::ranges::all_of(planes, [&](const volmesh::RimPlane& plane) { return is_opening(plane, box); })) return std::nullopt;
+  if (!std::ranges::all_of(planes, [&](const volmesh::OpenBorderPlane& plane) { return is_opening(plane, box); })) return std::nullopt;
   std::string text = "the surface is open, and all its open boundaries lie in the " + std::string(planes.size() == 1 ? "plane " : "planes ");
   for (std::size_t i = 0; i < planes.size(); ++i) text += (i == 0 ? "" : i + 1 == planes.size() ? " and " : ", ") + plane_text(planes[i]);
   return text + ": the domain ends there in symmetry planes, unless farfield_sides or periodic define other kinds; to close the surface instead, use repair";

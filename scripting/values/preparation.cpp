@@ -36,7 +36,7 @@ constexpr double k_remesh_first = 2000.0;
 constexpr double k_model_of_triangle = 4e-5;  ///< per triangle: faces are meshed twice, the first time to find crossings
 constexpr double k_seconds_off = 3.0;         ///< factor by which the seconds may be wrong
 
-std::int64_t count_needles(const InspectReport& report, double limit) {
+std::int64_t count_slivers(const InspectReport& report, double limit) {
   const auto field = std::ranges::find(report.fields, "smallest_angle", &TriMeshField::name);
   if (field == report.fields.end()) return 0;
   return std::ranges::count_if(field->values, [&](float angle) { return !(angle * k_degree >= limit); });
@@ -89,7 +89,7 @@ std::string to_do(const surfmesh::RepairForecast& forecast) {
 
 void choose_repair_or_wrap(Preparation& p, const AutoSurface& options) {
   const surfmesh::RepairForecast& forecast = p.forecast;
-  if (!forecast.places.empty()) p.place = forecast.places.front();
+  if (!forecast.locations.empty()) p.location = forecast.locations.front();
   if (forecast.is_enough) {
     p.needed = Strength::repair;
     p.is_changed = forecast.n_changes > 0 || forecast.n_crossings > 0 || forecast.n_crowded > 0;
@@ -108,7 +108,7 @@ void choose_repair_or_wrap(Preparation& p, const AutoSurface& options) {
     p.reason = forecast.problem + "; repair leaves " + counted(forecast.n_open, "opening", "openings") +
                fmt::format(", the widest {:.4g} m across ({:.3g} of the length): above the limits of repair, or as large as the surface itself",
                            forecast.widest_open, forecast.widest_open / forecast.length);
-    p.place = forecast.widest_place;
+    p.location = forecast.widest_location;
     if (forecast.widest_open >= forecast.length)
       p.hint =
           "a surface with an opening as large as its length is a sheet; wrapped, its thickness is about the wrap's offset. If a part of the surface is "
@@ -134,9 +134,9 @@ void advise_remesh(Preparation& p, const InspectReport& report) {
     return static_cast<double>(*std::ranges::min_element(field->values));
   }();
   p.reason = fmt::format("{:.3g} % of the triangles ({}) have an angle below {:.3g} deg, the smallest {:.3g} deg: tetrahedra on them tend to fail gate G14",
-                         100.0 * p.needle_share, count_text(p.n_needles), p.needle_limit / k_degree, smallest);
-  if (const volmesh::Finding* needle = report.find(FindingKind::needle); needle != nullptr && !needle->places.empty())
-    p.place = needle->places.front().position;
+                         100.0 * p.needle_share, count_text(p.n_slivers), p.sliver_limit / k_degree, smallest);
+  if (const volmesh::Finding* needle = report.find(FindingKind::needle); needle != nullptr && !needle->locations.empty())
+    p.location = needle->locations.front().position;
   const auto n = static_cast<std::int64_t>(report.mesh.n_triangles());
   p.seconds = k_start_seconds + k_remesh_of_first * std::min(static_cast<double>(n), k_remesh_first) + k_remesh_of_facet * static_cast<double>(n);
   p.basis = counted(n, "triangle", "triangles");
@@ -170,12 +170,12 @@ std::string_view to_string(Strength strength) {
   return k_names[static_cast<std::size_t>(strength)];
 }
 
-Preparation foresee_preparation(const std::vector<SurfaceSoup>& soups, const InspectReport& report, const AutoSurface& options, double needle_limit,
+Preparation foresee_preparation(const std::vector<SurfaceSoup>& soups, const InspectReport& report, const AutoSurface& options, double sliver_limit,
                                 std::span<const std::string> inputs, bool must_close, const RunContext& context) {
   Preparation p;
-  p.needle_limit = needle_limit;
-  p.n_needles = count_needles(report, needle_limit);
-  p.needle_share = report.mesh.n_triangles() == 0 ? 0.0 : static_cast<double>(p.n_needles) / static_cast<double>(report.mesh.n_triangles());
+  p.sliver_limit = sliver_limit;
+  p.n_slivers = count_slivers(report, sliver_limit);
+  p.needle_share = report.mesh.n_triangles() == 0 ? 0.0 : static_cast<double>(p.n_slivers) / static_cast<double>(report.mesh.n_triangles());
   if (const volmesh::Finding* malformed = report.find(FindingKind::malformed)) {
     p.needed = Strength::beyond;
     p.reason = malformed->text;
@@ -191,11 +191,11 @@ Preparation foresee_preparation(const std::vector<SurfaceSoup>& soups, const Ins
       return p;
     }
   }
-  const bool has_needles = p.needle_share >= k_many_needles;
+  const bool has_slivers = p.needle_share >= k_many_slivers;
   if (p.forecast.is_needed) {
     choose_repair_or_wrap(p, options);
-    p.is_remesh_advised = has_needles;
-  } else if (has_needles) {
+    p.is_remesh_advised = has_slivers;
+  } else if (has_slivers) {
     advise_remesh(p, report);
   }
   if (p.seconds > 0.0) p.basis += fmt::format("; on one thread, within a factor of {:g} for the files used to fit the estimate", k_seconds_off);
@@ -223,9 +223,9 @@ std::string json_of(const Preparation& p) {
                          {"triangulated", p.is_triangulated},
                          {"changed", p.is_changed},
                          {"remesh", p.is_remesh_advised},
-                         {"needles", p.n_needles},
+                         {"needles", p.n_slivers},
                          {"needle_share", p.needle_share}};
-  json["at"] = p.place ? nlohmann::json{p.place->x, p.place->y, p.place->z} : nlohmann::json(nullptr);
+  json["at"] = p.location ? nlohmann::json{p.location->x, p.location->y, p.location->z} : nlohmann::json(nullptr);
   const surfmesh::RepairForecast& f = p.forecast;
   json["found"] = {{"facets", f.n_facets},         {"seams", f.n_seams},
                    {"sheets", f.n_sheets},         {"holes", f.n_holes},
@@ -241,14 +241,14 @@ std::string text_of(const Preparation& p) {
            (p.hint.empty() ? "" : "; " + p.hint) + "\n";
   std::string text =
       fmt::format("  first {:<13} {}{}\n", to_string(p.needed), p.needed == Strength::beyond ? "neither repair nor wrap nor remesh helps: " : "", p.reason);
-  if (p.place) text += "        at " + format_point(*p.place) + "\n";
+  if (p.location) text += "        at " + format_point(*p.location) + "\n";
   if (p.is_triangulated) text += "        the model is replaced by triangles; patches keep the names of its faces\n";
   if (!p.command.empty()) text += "        run: " + p.command + "\n";
   if (!p.script.empty()) text += "        or in Lua: " + p.script + "\n";
   if (!p.hint.empty()) text += "        try: " + p.hint + "\n";
   if (p.seconds > 0.0) text += fmt::format("        takes about {} s ({})\n", number_text(p.seconds, 2), p.basis);
   if (p.is_remesh_advised && p.needed != Strength::remesh)
-    text += fmt::format("        then remesh: {:.3g} % of the triangles have an angle below {:.3g} deg\n", 100.0 * p.needle_share, p.needle_limit / k_degree);
+    text += fmt::format("        then remesh: {:.3g} % of the triangles have an angle below {:.3g} deg\n", 100.0 * p.needle_share, p.sliver_limit / k_degree);
   return text;
 }
 

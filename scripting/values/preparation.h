@@ -30,7 +30,7 @@ struct Preparation {
   bool is_triangulated = false;    ///< the triangles of a model are used without the model, because its faces cross, fold or are open
   bool is_remesh_advised = false;  ///< new triangles are advised, also after repair
   std::string reason;              ///< one sentence, with counts
-  std::optional<Point> place;      ///< m; location of the first defect
+  std::optional<Point> location;   ///< m; location of the first defect
   std::string command;             ///< command for the preparation; empty: nothing to do
   std::string script;              ///< the same command in Lua
   std::string hint;                ///< further settings to make; may be empty
@@ -38,15 +38,15 @@ struct Preparation {
   std::string basis;               ///< origin of the seconds: the counted quantities, and the margin of error
   bool is_changed = false;         ///< repair changes the surface; false if half a model only has to be recognised as such
   surfmesh::RepairForecast forecast;
-  std::int64_t n_needles = 0;  ///< triangles with a corner below needle_limit
+  std::int64_t n_slivers = 0;  ///< triangles with a corner below sliver_limit
   double needle_share = 0.0;
-  double needle_limit = 0.0;  ///< rad
+  double sliver_limit = 0.0;  ///< rad
 };
 
 /// Predicts the actions of --auto on these soups (in units of options.stitching.unit), by the same steps as far as these are quick (surfmesh::foresee_repair).
 /// `report` is the inspection of the same surface: its errors decide if repair is needed, and its triangles give the number of slivers. `inputs` are the names
 /// of the files, for the command line. \throws Error(cancelled)
-Preparation foresee_preparation(const std::vector<SurfaceSoup>& soups, const volmesh::InspectReport& report, const AutoSurface& options, double needle_limit,
+Preparation foresee_preparation(const std::vector<SurfaceSoup>& soups, const volmesh::InspectReport& report, const AutoSurface& options, double sliver_limit,
                                 std::span<const std::string> inputs, bool must_close, const RunContext& context);
 
 /// Completes the prediction for a model whose surface was inspected, because --auto applies the steps to the triangles of that surface. `changes`: changes that

@@ -18,21 +18,21 @@
 #include "scripting/values/summary.h"
 #include "scripting/values/value_keys.h"
 #include "surfmesh/remesh/remesh_demand.h"
-#include "volmesh/case/needle_options.h"
+#include "volmesh/case/sliver_options.h"
 
 namespace sterna::scripting {
 namespace {
 
 /// Largest accepted share of slivers, relative to the previous share. If more slivers remain, the feature lines of the surface force them, and layers there do
 /// not improve.
-constexpr double k_fewer_needles = 0.5;
+constexpr double k_fewer_slivers = 0.5;
 /// Limits of the distance of new triangles from the given ones, relative to the body's length and to the edges of the new triangles. Beyond them the new
 /// triangles have lost part of the shape (a dent, a nose, a thin part).
 constexpr double k_largest_distance = 1e-3, k_largest_of_edge = 0.2;
 /// Fraction of the area that may be turned from the smooth surface in addition to that of the given triangles. It allows for regions at feature lines, where
 /// both values depend on a single triangle.
 constexpr double k_more_turned = 0.005;
-/// Limits of the number of triangles made by without_needles(): a factor and a number, of which the larger applies. Without them, steps and slivers that
+/// Limits of the number of triangles made by without_slivers(): a factor and a number, of which the larger applies. Without them, steps and slivers that
 /// resemble curvature would lead to millions of triangles.
 constexpr std::size_t k_many_times = 20, k_few_triangles = 200'000;
 
@@ -60,10 +60,10 @@ std::optional<ContentKey> remesh_key(const SurfaceValue& wall, const RemeshRecip
 
 SurfaceValue remeshed_if(const SurfaceValue& wall, const RemeshRecipe& recipe, const std::function<double(const Point&)>& size,
                          const surfmesh::RemeshDemand& demand, const RunContext& context, const Reuse& reuse) {
-  SurfaceRecipe asked;
-  asked.options.growth = recipe.options.growth;
-  asked.sources = recipe.sources;
-  const surfmesh::SpaceSizes sizes = space_sizes(asked, size);
+  SurfaceRecipe requested;
+  requested.options.growth = recipe.options.growth;
+  requested.sources = recipe.sources;
+  const surfmesh::SpaceSizes sizes = space_sizes(requested, size);
   surfmesh::RemeshResult result = cached<surfmesh::RemeshResult>(reuse, "remesh", "", remesh_key(wall, recipe, size), context, [&] {
     return surfmesh::remesh_surface(wall.mesh, recipe.options, recipe.patches, sizes, demand, context);
   });
@@ -93,15 +93,15 @@ SurfaceValue remeshed(const SurfaceValue& wall, const RemeshRecipe& recipe, cons
 }
 
 bool is_remesh_advised(const SurfaceValue& wall) {
-  if (wall.repair_options || wall.wrap_options) return surfmesh::is_remesh_advised(surfmesh::count_needles(wall.mesh), wall.mesh.n_triangles());
+  if (wall.repair_options || wall.wrap_options) return surfmesh::is_remesh_advised(surfmesh::count_slivers(wall.mesh), wall.mesh.n_triangles());
   if (wall.mesh_report) return false;
-  const auto n = static_cast<double>(surfmesh::count_needles(wall.mesh, volmesh::NeedleOptions{}.split_needles).n);
-  return n > 0.0 && n >= k_many_needles * static_cast<double>(wall.mesh.n_triangles());
+  const auto n = static_cast<double>(surfmesh::count_slivers(wall.mesh, volmesh::SliverOptions{}.split_needles).n);
+  return n > 0.0 && n >= k_many_slivers * static_cast<double>(wall.mesh.n_triangles());
 }
 
-SurfaceValue without_needles(const SurfaceValue& wall, const RemeshRecipe& recipe, const RunContext& context, const Reuse& reuse) {
+SurfaceValue without_slivers(const SurfaceValue& wall, const RemeshRecipe& recipe, const RunContext& context, const Reuse& reuse) {
   if (!is_remesh_advised(wall)) return wall;
-  const surfmesh::NeedleCount before = surfmesh::count_needles(wall.mesh);
+  const surfmesh::SliverCount before = surfmesh::count_slivers(wall.mesh);
   RemeshRecipe bounded = recipe;
   const std::size_t n = wall.mesh.n_triangles();
   const double share_before = static_cast<double>(before.n) / static_cast<double>(n);
@@ -109,15 +109,15 @@ SurfaceValue without_needles(const SurfaceValue& wall, const RemeshRecipe& recip
   if (is_own_budget)
     bounded.options.max_triangles =
         static_cast<int>(std::min<std::size_t>(static_cast<std::size_t>(recipe.options.max_triangles), std::max(k_many_times * n, k_few_triangles)));
-  const surfmesh::RemeshDemand demand{.most_needles = k_fewer_needles * share_before,
-                                      .least_angle = std::min(before.least_angle, surfmesh::k_worst_needle_angle),
+  const surfmesh::RemeshDemand demand{.most_slivers = k_fewer_slivers * share_before,
+                                      .least_angle = std::min(before.least_angle, surfmesh::k_worst_sliver_angle),
                                       .largest_distance = k_largest_distance,
                                       .largest_distance_of_edge = k_largest_of_edge,
                                       .more_turned = k_more_turned};
   const auto meets = [&](const SurfaceValue& made) {  // a cached result may have been made without this demand
-    const surfmesh::NeedleCount after = surfmesh::count_needles(made.mesh);
+    const surfmesh::SliverCount after = surfmesh::count_slivers(made.mesh);
     const double share = static_cast<double>(after.n) / static_cast<double>(made.mesh.n_triangles());
-    if (share <= demand.most_needles && after.least_angle >= demand.least_angle) return true;
+    if (share <= demand.most_slivers && after.least_angle >= demand.least_angle) return true;
     context.info(
         fmt::format("auto: after remesh {:.3g} % of the triangles are slivers (before: {:.3g} %), the smallest angle is {:.3g} deg (before: {:.3g} deg)",
                     100.0 * share, 100.0 * share_before, after.least_angle / k_degree, before.least_angle / k_degree));

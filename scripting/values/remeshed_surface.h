@@ -26,9 +26,9 @@ SurfaceValue remeshed(const SurfaceValue& wall, const RemeshRecipe& recipe, cons
 
 /// Share of slivers (corners below volume_mesh's split_needles) above which new triangles are advised for a sound triangulation. Below this share at most ten
 /// tetrahedra failed on any surface of docs/needles.md, above it tens to hundreds.
-inline constexpr double k_many_needles = 0.02;
+inline constexpr double k_many_slivers = 0.02;
 
-/// Returns true if gates would fail on the wall's triangles. This is tested by surfmesh::is_remesh_advised for repaired or wrapped surfaces, by k_many_needles
+/// Returns true if gates would fail on the wall's triangles. This is tested by surfmesh::is_remesh_advised for repaired or wrapped surfaces, by k_many_slivers
 /// for sound triangulations. Always false for the triangles of models' faces.
 bool is_remesh_advised(const SurfaceValue& wall);
 
@@ -36,6 +36,6 @@ bool is_remesh_advised(const SurfaceValue& wall);
 /// better if they have at most half the share of slivers and no corner below a degree that was not there before. Their distance from the given triangles must
 /// be at most a thousandth of the length and a fifth of their edges. The area turned by more than 10 degrees must not grow. The budget is max_triangles if that
 /// differs from its default; by default it is 20 times the given triangles, at least 200 000.
-SurfaceValue without_needles(const SurfaceValue& wall, const RemeshRecipe& recipe, const RunContext& context, const Reuse& reuse = {});
+SurfaceValue without_slivers(const SurfaceValue& wall, const RemeshRecipe& recipe, const RunContext& context, const Reuse& reuse = {});
 
 }  // namespace sterna::scripting

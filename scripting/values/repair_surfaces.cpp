@@ -36,7 +36,7 @@ constexpr double k_as_it_is_end = 0.3;
 constexpr double k_triangles_end = 0.35;
 constexpr double k_repair_end = 0.6;
 constexpr double k_remesh_begin = 0.7;
-constexpr std::size_t k_faces_told = 3;  ///< number of faces named in the summary
+constexpr std::size_t k_faces_reported = 3;  ///< number of faces named in the summary
 
 /// Cached data of a repair.
 struct RepairedWall {
@@ -55,15 +55,15 @@ ContentKey repair_key(const SurfaceItems& items, surfmesh::RepairOptions options
 }
 
 /// Reports the faces of a model whose triangles were replaced, with their distance from the face.
-void tell_replaced_faces(const SurfaceValue& made, SurfaceValue& repaired, const RunContext& context) {
+void report_replaced_faces(const SurfaceValue& made, SurfaceValue& repaired, const RunContext& context) {
   const surfmesh::ReplacedFaces replaced = surfmesh::find_replaced_faces(*made.model_wall, made.mesh, repaired.mesh, context);
   if (replaced.faces.empty()) return;
   const std::vector<std::string> lines = to_lines(replaced.faces, replaced.faces.size());
   std::string text =
       fmt::format("triangles of {} of {} faces of the model were replaced, the other {} of {} triangles are unchanged: ", replaced.faces.size(),
                   made.mesh_report->faces.size(), count_text(replaced.n_exact), count_text(static_cast<std::int64_t>(repaired.mesh.n_triangles())));
-  for (std::size_t i = 0; i < std::min(k_faces_told, lines.size()); ++i) text += (i == 0 ? "" : "; ") + lines[i];
-  if (lines.size() > k_faces_told) text += fmt::format("; and {} more (see log or report)", lines.size() - k_faces_told);
+  for (std::size_t i = 0; i < std::min(k_faces_reported, lines.size()); ++i) text += (i == 0 ? "" : "; ") + lines[i];
+  if (lines.size() > k_faces_reported) text += fmt::format("; and {} more (see log or report)", lines.size() - k_faces_reported);
   repaired.changes.push_back(std::move(text));
   for (const std::string& line : lines) {
     repaired.report.messages.push_back(line);
@@ -246,7 +246,7 @@ SurfaceValue auto_triangles(std::span<const InputPath> files, const AutoSurface&
   try {
     Repaired repaired = repaired_of(items, stitching, options.repair, reuse, context.part("repair", k_triangles_end, k_repair_end), {});
     if (open && repaired.wall.changes.size() == open->changes.size()) return *open;
-    if (of_model) tell_replaced_faces(*of_model, repaired.wall, context);
+    if (of_model) report_replaced_faces(*of_model, repaired.wall, context);
     const std::int64_t n_folded = surfmesh::count_folded_edges(repaired.wall.mesh);
     if (static_cast<double>(n_folded) < surfmesh::k_many_folded * 1.5 * static_cast<double>(repaired.wall.mesh.n_triangles()))
       return accepted(std::move(repaired), context);
@@ -275,7 +275,7 @@ SurfaceValue auto_triangles(std::span<const InputPath> files, const AutoSurface&
 
 SurfaceValue auto_surface(std::span<const InputPath> files, const AutoSurface& options, const Reuse& reuse, const RunContext& context) {
   const SurfaceValue made = auto_triangles(files, options, reuse, context.part("triangles", 0.0, k_remesh_begin));
-  return without_needles(made, {.options = options.remesh, .patches = {}, .sources = {}}, context.part("remesh", k_remesh_begin, 1.0), reuse);
+  return without_slivers(made, {.options = options.remesh, .patches = {}, .sources = {}}, context.part("remesh", k_remesh_begin, 1.0), reuse);
 }
 
 }  // namespace sterna::scripting

@@ -45,7 +45,7 @@ struct AutoSurface {
 /// \throws Error of the first step with the reports of repair and wrap. An error that is not about the surface (a missing file, an option) is thrown at once
 SurfaceValue auto_triangles(std::span<const InputPath> files, const AutoSurface& options, const Reuse& reuse, const RunContext& context);
 
-/// Returns the surface of auto_triangles(), with new triangles if the given ones would make gates fail (without_needles).
+/// Returns the surface of auto_triangles(), with new triangles if the given ones would make gates fail (without_slivers).
 SurfaceValue auto_surface(std::span<const InputPath> files, const AutoSurface& options, const Reuse& reuse, const RunContext& context);
 
 /// Returns true if an error is about the surface itself, so that repair or wrap may help.

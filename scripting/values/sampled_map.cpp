@@ -29,11 +29,11 @@ constexpr std::array<double, 3> k_crooked = {0.31, 0.43, 0.59};
 
 using Stations = std::array<std::vector<double>, 3>;
 
-[[noreturn]] void refuse(std::string problem, const Point& place, std::string hint = {}) {
+[[noreturn]] void refuse(std::string problem, const Point& location, std::string hint = {}) {
   throw Error({.code = ErrorCode::bad_argument,
                .attempted = "sampling the deformation",
                .problem = std::move(problem),
-               .places = {{place, "place"}},
+               .locations = {{location, "place"}},
                .hint = std::move(hint)});
 }
 
@@ -42,12 +42,12 @@ class Kept {
  public:
   explicit Kept(const std::function<Vec3(const Point&)>& f) : f_(f) {}
   const Vec3& operator()(const Point& p) {
-    const auto [place, is_new] = values_.try_emplace(std::array{p.x, p.y, p.z});
+    const auto [location, is_new] = values_.try_emplace(std::array{p.x, p.y, p.z});
     if (is_new) {
-      place->second = f_(p);
-      if (!is_finite(place->second)) refuse("the function does not return finite numbers", p);
+      location->second = f_(p);
+      if (!is_finite(location->second)) refuse("the function does not return finite numbers", p);
     }
-    return place->second;
+    return location->second;
   }
 
  private:

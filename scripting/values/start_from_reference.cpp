@@ -25,7 +25,7 @@ std::string part_name_of(const Model& part) { return part.components.size() == 0
 
 ContentKey points_key(const Column<VertexId, Point>& points) { return KeyMaker("points of vertices").add(points).key(); }
 
-std::string at(const Point& place) { return ", at " + format_point(place); }
+std::string at(const Point& location) { return ", at " + format_point(location); }
 
 bool is_same(const OptionValue& a, const OptionValue& b) {
   const auto *x = std::get_if<double>(&a), *y = std::get_if<double>(&b);
@@ -48,7 +48,7 @@ KeptPart kept_part(const PartTask& task, const surfmesh::SurfaceMesh& mesh, cons
                 .mesh = {surfmesh::structure_of(task.model), mesh},
                 .options = task.options,
                 .patches = task.patches,
-                .has_sizes_by_place = task.has_sizes_by_place};
+                .has_local_sizes = task.has_local_sizes};
   part.geometry = points_key(surfmesh::carried_points(part.mesh, task.model, part.mesh.structure, context));
   return part;
 }
@@ -74,7 +74,7 @@ std::string objection(const KeptPart& like, const PartTask& task) {
   if (const std::string names = differing(sterna::options_of(before), sterna::options_of(now)); !names.empty())
     return "options differ from those of the reference: " + names;
   if (KeyMaker("rules").add(like.patches).key() != KeyMaker("rules").add(task.patches).key()) return "options of patches differ from those of the reference";
-  if (like.has_sizes_by_place || task.has_sizes_by_place) return "sources and size functions set edge lengths by the part's present position";
+  if (like.has_local_sizes || task.has_local_sizes) return "sources and size functions set edge lengths by the part's present position";
   if (!task.options.periodic.empty()) return "borders of periodic sides need identical nodes at their present position";
   if (task.options.gap_cells > 0.0) return "gap_cells sets edge lengths by the present neighbours";
   return {};
@@ -84,28 +84,28 @@ surfmesh::SurfaceMesh mesh_from_reference(const PartTask& task, const Reuse& reu
                                           const RunContext& context) {
   ReferenceUse& reference = *reuse.reference;
   const std::string what = "surface of " + part_name_of(task.model) + ": ";
-  const auto anew = [&](const std::string& why) {
-    reference.tell(what + "meshed again: " + why, reuse, context);
+  const auto from_scratch = [&](const std::string& why) {
+    reference.report(what + "meshed again: " + why, reuse, context);
     return ordinary(task, context);
   };
   const std::vector<KeptPart>& parts = reference.parts(context);
   const ModelStructure structure = surfmesh::structure_of(task.model);
   const KeptPart* like = find_like(parts, structure, reference.surface());
-  if (like == nullptr) return anew(difference_text(parts, part_name_of(task.model), structure));
+  if (like == nullptr) return from_scratch(difference_text(parts, part_name_of(task.model), structure));
   const std::string against = objection(*like, task);
   Column<VertexId, Point> points = surfmesh::carried_points(like->mesh, task.model, structure, context);
   if (points_key(points) == like->geometry) {
-    if (!against.empty()) reference.tell(what + "meshed again: " + against, reuse, context);
+    if (!against.empty()) reference.report(what + "meshed again: " + against, reuse, context);
     return ordinary(task, context);  // the part has the reference's own geometry
   }
-  if (!against.empty()) return anew(against);
+  if (!against.empty()) return from_scratch(against);
   const std::string of_cache = "of " + part_name_of(task.model) + " with the triangles of " + reference.name();
   std::optional<ContentKey> of_like;  // number of the reference's part
   if (key) of_like = KeyMaker("carried").add(*key).add(static_cast<std::uint64_t>(like - parts.data())).key();
   CarriedMesh carried = cached<CarriedMesh>(reuse, "surface_mesh", of_cache, of_like, context,
                                             [&] { return surfmesh::carry_mesh(like->mesh, task.model, structure, std::move(points), task.options, context); });
-  if (!carried.mesh) return anew(carried.objection + at(carried.place));
-  reference.tell(what + "topology of " + reference.name(), reuse, context);
+  if (!carried.mesh) return from_scratch(carried.objection + at(carried.location));
+  reference.report(what + "topology of " + reference.name(), reuse, context);
   reference.note_carried(carried.mesh->mesh, part_name_of(task.model));
   return std::move(*carried.mesh);
 }
@@ -137,14 +137,14 @@ const KeptEnvelope* find_start(const TriMesh& wall, volmesh::EnvelopeOptions opt
     if (names.empty()) return &kept;
     against = "options differ from those of the reference: " + names;
   }
-  if (has_carried) reuse.reference->tell(what + "made from scratch: " + against, reuse, context);
+  if (has_carried) reuse.reference->report(what + "made from scratch: " + against, reuse, context);
   return nullptr;
 }
 
 volmesh::Envelope start_or_build(const KeptEnvelope& from, const std::string& name, const volmesh::LayerBase& base, const volmesh::EnvelopeOptions& options,
                                  volmesh::Collider& collider, std::string& outcome, const RunContext& context) {
   volmesh::WarmStart start = volmesh::warm_start(base, options, from.start, collider, context);
-  outcome = start.envelope ? "started from " + name : "made from scratch: " + start.objection + at(start.place);
+  outcome = start.envelope ? "started from " + name : "made from scratch: " + start.objection + at(start.location);
   return start.envelope ? std::move(*start.envelope) : volmesh::build_envelope(base, options, collider, context);
 }
 
@@ -163,7 +163,7 @@ volmesh::PartEnvelope part_from_reference(const volmesh::PartEnvelopeTask& task,
     return started;
   };
   StartedEnvelope started = cached<StartedEnvelope>(reuse, "envelope", "of a part beside " + reuse.reference->name(), key, context, make);
-  reuse.reference->tell(what + started.outcome, reuse, context);
+  reuse.reference->report(what + started.outcome, reuse, context);
   return std::move(started.part);
 }
 
@@ -182,7 +182,7 @@ volmesh::Envelope wall_from_reference(const volmesh::LayerBase& base, const volm
   if (from == nullptr) return volmesh::build_envelope(base, options, collider, context);
   std::string outcome;
   volmesh::Envelope envelope = start_or_build(*from, reference.name(), base, options, collider, outcome, context);
-  reference.tell(what + outcome, reuse, context);
+  reference.report(what + outcome, reuse, context);
   return envelope;
 }
 
@@ -213,13 +213,13 @@ volmesh::Makers starting_envelopes(volmesh::Makers makers, const Reuse& reuse, c
   return makers;
 }
 
-void tell_other_envelopes(const std::vector<volmesh::PlacedPart>& parts, const Reuse& reuse, const RunContext& context) {
+void report_other_envelopes(const std::vector<volmesh::PlacedPart>& parts, const Reuse& reuse, const RunContext& context) {
   if (reuse.reference == nullptr) return;
   for (const volmesh::PlacedPart& placed : parts) {
     CarriedPart* part = placed.own ? reuse.reference->carried(triangles_key(*placed.own)) : nullptr;
     if (part == nullptr || part->has_envelope) continue;
     part->has_envelope = true;
-    reuse.reference->tell("envelope of " + part->name + ": made from scratch: its layer depends on adjacent parts", reuse, context);
+    reuse.reference->report("envelope of " + part->name + ": made from scratch: its layer depends on adjacent parts", reuse, context);
   }
 }
 

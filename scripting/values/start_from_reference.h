@@ -30,7 +30,7 @@ volmesh::Makers starting_envelopes(volmesh::Makers makers, const Reuse& reuse, c
 
 /// Reports, for each part of a wall that took over triangles and whose envelope was not requested, why that envelope did not start from the reference's. To be
 /// called after the wall's envelope was made.
-void tell_other_envelopes(const std::vector<volmesh::PlacedPart>& parts, const Reuse& reuse, const RunContext& context);
+void report_other_envelopes(const std::vector<volmesh::PlacedPart>& parts, const Reuse& reuse, const RunContext& context);
 
 /// Returns the key of a result that also depends on the reference; without a reference the key is unchanged.
 std::optional<ContentKey> beside_reference(const std::optional<ContentKey>& key, const Reuse& reuse, const RunContext& context);

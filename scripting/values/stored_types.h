@@ -5,7 +5,7 @@
 #include "geom/mesh/check.h"
 #include "geom/model/aircraft.h"
 #include "scripting/cache/archive.h"
-#include "scripting/values/stages.h"
+#include "scripting/values/stored_stages.h"
 #include "scripting/values/verbs.h"
 #include "surfmesh/model/model_wall.h"
 #include "surfmesh/remesh/remesh_surface.h"

@@ -19,7 +19,7 @@ namespace sterna::scripting {
 namespace {
 
 constexpr double k_bytes_per_mb = 1e6;
-constexpr double k_least_told = 0.5;          ///< a stage reports its busy share only if it takes at least this many seconds
+constexpr double k_least_reported = 0.5;      ///< a stage reports its busy share only if it takes at least this many seconds
 constexpr std::size_t k_listed_troubles = 3;  ///< number of measures that miss a limit in the summary; the summary of a finished mesh has a dozen lines
 
 std::string counted(std::int64_t n, std::string_view one, std::string_view many) { return count_text(n) + " " + std::string(n == 1 ? one : many); }
@@ -46,28 +46,28 @@ std::string missed_limit_text(const GateResult& gate, double value) {
 }
 
 /// Returns the value at the worst location that is not forced by the input surface; the worst of all if there is none.
-double told_value(const GateResult& gate) { return gate.places.empty() ? gate.worst : gate.places.front().value; }
+double reported_value(const GateResult& gate) { return gate.locations.empty() ? gate.worst : gate.locations.front().value; }
 
 /// Returns the factor by which the worst location misses the strictest kind of limit, by which problems are sorted. Infinite if a value of 0 misses a lower
 /// limit.
 double excess_of(const GateResult& gate) {
-  const double value = told_value(gate);
+  const double value = reported_value(gate);
   const double limit = missed_limit(gate, value).second;
   const double ratio = info_of(gate.measure).is_low_bad ? limit / value : value / limit;
   return value > 0.0 && limit > 0.0 ? ratio : std::numeric_limits<double>::infinity();
 }
 
 /// Returns the reason why the layer closest to a location is lower than its target. Empty if it has its full height, or if the reason is unknown.
-std::string_view lowered_at(const HybridMesh& mesh, const Point& place) {
+std::string_view lowered_at(const HybridMesh& mesh, const Point& location) {
   const LayerBlock& layers = mesh.layers;
   if (layers.n_lines() == 0 || mesh.request.reason.size() != layers.n_lines() || mesh.request.target_height.size() != layers.n_lines()) return {};
-  const auto foot = [&](std::size_t line) { return mesh.points[layers.node(static_cast<std::uint32_t>(line), 0)]; };
+  const auto base_point = [&](std::size_t line) { return mesh.points[layers.node(static_cast<std::uint32_t>(line), 0)]; };
   const auto top = [&](std::size_t line) { return mesh.points[layers.node(static_cast<std::uint32_t>(line), layers.layers_of_line(line))]; };
-  const auto distance_from = [&](std::size_t line) { return std::min(norm2(foot(line) - place), norm2(top(line) - place)); };
+  const auto distance_from = [&](std::size_t line) { return std::min(norm2(base_point(line) - location), norm2(top(line) - location)); };
   std::size_t nearest = 0;
   for (std::size_t line = 1; line < layers.n_lines(); ++line)
     if (distance_from(line) < distance_from(nearest)) nearest = line;
-  if (distance(foot(nearest), top(nearest)) >= k_full_height_share * mesh.request.target_height[nearest]) return {};
+  if (distance(base_point(nearest), top(nearest)) >= k_full_height_share * mesh.request.target_height[nearest]) return {};
   const std::size_t reason = mesh.request.reason[nearest];
   return reason > 0 && reason < mesh.request.reasons.size() ? std::string_view(mesh.request.reasons[reason]) : std::string_view();
 }
@@ -75,8 +75,8 @@ std::string_view lowered_at(const HybridMesh& mesh, const Point& place) {
 /// Returns the remedy at the worst location of a measure. At a compressed layer this is not a larger number of layers, which would worsen the measure.
 std::string remedy_at(const GateResult& gate, const HybridMesh* mesh) {
   const bool is_of_height = gate.measure == Measure::interface_height || gate.measure == Measure::interface_volume || gate.measure == Measure::stack_growth;
-  if (!mesh || !is_of_height || gate.places.empty()) return std::string(remedy_of(gate.measure));
-  const std::string_view reason = lowered_at(*mesh, gate.places.front().position);
+  if (!mesh || !is_of_height || gate.locations.empty()) return std::string(remedy_of(gate.measure));
+  const std::string_view reason = lowered_at(*mesh, gate.locations.front().position);
   if (reason.empty()) return "more layers, a larger max_growth, or shorter edges on the wall there";
   return "the layer is compressed there (" + std::string(reason) +
          "): less refinement along the corner (surface_mesh: narrow = 20; where parts meet, intersection_factor = 1); in a gap, gap_cells; or truncate = "
@@ -86,10 +86,10 @@ std::string remedy_at(const GateResult& gate, const HybridMesh* mesh) {
 /// Returns a line on a measure that misses a limit: the problem in plain words, its worst location that is not forced, and the remedy.
 std::string trouble_text(const GateResult& gate, const HybridMesh* mesh) {
   const MeasureInfo& info = info_of(gate.measure);
-  const double value = told_value(gate);
+  const double value = reported_value(gate);
   std::string text = fmt::format("  worst       {}: {} {} {:.4g}{} ({})", trouble_of(gate.measure), info.gate, to_string(gate.state),
                                  in_report_unit(info, value), info.is_angle ? " deg" : "", missed_limit_text(gate, value));
-  if (!gate.places.empty()) text += " at " + format_point(gate.places.front().position) + ", " + gate.places.front().what;
+  if (!gate.locations.empty()) text += " at " + format_point(gate.locations.front().position) + ", " + gate.locations.front().what;
   return text + "; " + remedy_at(gate, mesh) + "\n";
 }
 
@@ -171,7 +171,7 @@ std::string worst_quality_text(const CheckReport& report) {
   const std::vector<const GateResult*> troubles = troubles_of(report);
   if (troubles.empty()) return {};
   const MeasureInfo& info = info_of(troubles.front()->measure);
-  return fmt::format("{} {:.4g}{}", info.name, in_report_unit(info, told_value(*troubles.front())), info.is_angle ? " deg" : "");
+  return fmt::format("{} {:.4g}{}", info.name, in_report_unit(info, reported_value(*troubles.front())), info.is_angle ? " deg" : "");
 }
 
 std::string worst_gates_text(const CheckReport& report) {
@@ -212,9 +212,9 @@ std::string summary_text(const MeshValue& mesh, Consumers consumers) {
   text += fmt::format("{} tetrahedra; wall of {} triangles, {:.6g} m long\n", count_text(cells.tetrahedra), count_text(mesh.origin->n_wall_triangles),
                       layer.body_length);
   if (const std::string regions = describe_regions(volume_regions(mesh.mesh)); !regions.empty()) text += "  regions     of fluid: " + regions + "\n";
-  if (const volmesh::NeedleReport& needles = mesh.origin->needles; needles.n_needles > 0)
-    text += fmt::format("  needles     {} sliver triangles of the wall, {} left; {} edges flipped, {} -> {} triangles\n", count_text(needles.n_needles),
-                        count_text(needles.n_left), count_text(needles.n_flips), count_text(needles.n_given), count_text(needles.n_triangles));
+  if (const volmesh::SliverReport& slivers = mesh.origin->slivers; slivers.n_slivers > 0)
+    text += fmt::format("  needles     {} sliver triangles of the wall, {} left; {} edges flipped, {} -> {} triangles\n", count_text(slivers.n_slivers),
+                        count_text(slivers.n_left), count_text(slivers.n_flips), count_text(slivers.n_given), count_text(slivers.n_triangles));
   if (mesh.origin->n_split_triangles > 0)
     text += fmt::format("  splits      {} more triangles on wall and farfield, required by the tetrahedra\n", count_text(mesh.origin->n_split_triangles));
   if (has_layers)
@@ -242,14 +242,14 @@ std::string wrote_text(const std::vector<std::filesystem::path>& names) {
   return "wrote " + written + (names.size() == 1 ? " and " + manifest_path(names.front()).string() : ", each with a manifest beside it (.json)");
 }
 
-std::string check_summary_text(const CheckReport& report, bool tells_troubles) {
+std::string check_summary_text(const CheckReport& report, bool reports_troubles) {
   if (!report.is_valid()) return to_text(report);
   std::string text = "VALID";
   if (report.quality_measured) text += "; " + quality_text(report);
   text += fmt::format("; every face matched, every cell valid{}; mesh:check{{ details = true }} prints all gates\n",
                       report.intersections_checked ? ", nothing intersects" : "");
   if (!report.quality_measured) return text;
-  if (tells_troubles) text += troubles_text(report, nullptr);
+  if (reports_troubles) text += troubles_text(report, nullptr);
   for (const Measure measure : {Measure::cad_distance, Measure::cad_normal})
     if (report.gate(measure).state != GateState::not_checked) text += to_text(report.gate(measure));
   return text;
@@ -267,7 +267,7 @@ std::string stages_text(const RunMeasure& measure) {
   std::string text = "  stages     ";
   for (const StageTime& stage : measure.stages) {
     text += fmt::format(" {} {:.2f}", stage.stage, stage.seconds);
-    if (stage.seconds >= k_least_told) text += fmt::format(" ({:.0f} % busy)", 100.0 * stage.busy_share(measure.threads));
+    if (stage.seconds >= k_least_reported) text += fmt::format(" ({:.0f} % busy)", 100.0 * stage.busy_share(measure.threads));
   }
   return text;
 }

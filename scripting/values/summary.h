@@ -43,9 +43,9 @@ std::string worst_quality_text(const CheckReport& report);
 std::string summary_text(const MeshValue& mesh, Consumers consumers = {});
 /// Returns "wrote a.su2, a.vtu, each with a manifest beside it (.json)".
 std::string wrote_text(const std::vector<std::filesystem::path>& names);
-/// Returns the output of a script's mesh:check() in a few lines: verdict, sizes and volume; with `tells_troubles` also the worst three measures; violations
+/// Returns the output of a script's mesh:check() in a few lines: verdict, sizes and volume; with `reports_troubles` also the worst three measures; violations
 /// with their locations.
-std::string check_summary_text(const CheckReport& report, bool tells_troubles);
+std::string check_summary_text(const CheckReport& report, bool reports_troubles);
 /// Returns one line with the seconds in the tetrahedra engine, the other seconds, and the memory.
 /// \pre mesh.origin
 std::string measure_text(const MeshValue& mesh, const RunMeasure& measure);

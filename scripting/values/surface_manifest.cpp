@@ -36,10 +36,10 @@ Json faces_json(const surfmesh::SurfaceMeshReport& report) {
                     {"triangles", face.n_triangles},
                     {"min_angle", k_degrees * face.min_angle},
                     {"max_angle", k_degrees * face.max_angle},
-                    {"min_angle_at", point_json(face.worst_place)},
+                    {"min_angle_at", point_json(face.worst_location)},
                     {"outside_20_130", face.n_outside_20_130},
                     {"max_normal_angle", k_degrees * face.max_normal_angle},
-                    {"normal_at", point_json(face.normal_place)}});
+                    {"normal_at", point_json(face.normal_location)}});
   }
   return list;
 }
@@ -53,16 +53,16 @@ Json quality_json(const surfmesh::SurfaceMeshReport& report) {
                {"least_angles_by_10_degrees", report.least_angles}};
   if (report.worst_face.is_valid()) {
     const surfmesh::FaceMeshSummary& worst = report.faces[report.worst_face.index()];
-    json["worst"] = {{"face", worst.name}, {"at", point_json(worst.worst_place)}};
+    json["worst"] = {{"face", worst.name}, {"at", point_json(worst.worst_location)}};
   }
-  json["max_smooth_angle"] = {{"degrees", k_degrees * report.max_smooth_angle}, {"at", point_json(report.smooth_angle_place)}};
-  json["edges_to_surfaces"] = {{"metres", report.max_edge_distance}, {"at", point_json(report.edge_distance_place)}};
+  json["max_smooth_angle"] = {{"degrees", k_degrees * report.max_smooth_angle}, {"at", point_json(report.smooth_angle_location)}};
+  json["edges_to_surfaces"] = {{"metres", report.max_edge_distance}, {"at", point_json(report.edge_distance_location)}};
   json["edges_beyond_tolerance"] = report.loose_edges.size();
   json["share_normals_within_curvature_angle"] = report.share_normals;
   json["crossings"] = report.n_crossings;
   json["absorbed"] = Json::array();
   for (const surfmesh::AbsorbedPart& part : report.absorbed)
-    json["absorbed"].push_back({{"what", part.what}, {"at", point_json(part.place)}, {"metres", part.size}});
+    json["absorbed"].push_back({{"what", part.what}, {"at", point_json(part.location)}, {"metres", part.size}});
   json["faces"] = faces_json(report);
   return json;
 }

@@ -1,7 +1,7 @@
 #include "scripting/values/value_keys.h"
 
 #include "scripting/lua/component_value.h"
-#include "scripting/values/stages.h"
+#include "scripting/values/stored_stages.h"
 #include "scripting/values/stored_types.h"
 #include "scripting/values/verbs.h"
 
@@ -89,7 +89,7 @@ ContentKey key_of(const volmesh::FilledStage& stage) {
       .add(tets.is_two_pass)
       .add(tets.failures)
       .add(tets.is_reproducible);
-  return maker.add(stage.tetra_failures).add(stage.curving_shares).add(stage.n_split_triangles).add(stage.needles).add(stage.is_opened).key();
+  return maker.add(stage.tetra_failures).add(stage.curving_shares).add(stage.n_split_triangles).add(stage.slivers).add(stage.is_opened).key();
 }
 
 std::optional<ContentKey> key_of(const EnvelopeValue& envelope) {

@@ -88,7 +88,7 @@ struct MeshOrigin {
   std::vector<std::string> tetra_failures;
   std::string tetra_choice;  ///< VolumeMeshResult::tetra_choice
   std::int64_t n_split_triangles = 0;
-  volmesh::NeedleReport needles;
+  volmesh::SliverReport slivers;
   std::vector<std::string> changes;  ///< changes of the wall
   std::vector<std::string> changed;  ///< changed figures of the wall
   bool is_reproducible = true;

@@ -42,7 +42,7 @@ CaseReference read_case_reference(const ScriptCall& call, TableReader& reader, c
   if (const ScriptValue* value = reader.field("reference")) {
     if (const auto* component = std::get_if<ComponentHandle>(value); component && std::holds_alternative<Wing>((*component)->shape)) {
       take({wing_reference(std::get<Wing>((*component)->shape))}, {});
-    } else if (is_stand_in(call, *value) && std::holds_alternative<ModelHandle>(*value)) {
+    } else if (is_placeholder(call, *value) && std::holds_alternative<ModelHandle>(*value)) {
       reference.area = 1.0;  // the wings of the placeholder are unknown
     } else if (const auto* model = std::get_if<ModelHandle>(value)) {
       const ModelReport report = measure_model(**model, call.session.context.part("reference", 0.0, 0.1));

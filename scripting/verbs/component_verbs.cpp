@@ -120,17 +120,17 @@ ScriptValue point_on_wing(const ScriptCall& call) {
   const Transform map = transform_of(wing->placement);
   for (std::size_t i = wing->sections.size(); i-- > 0;) {
     const WingSection& s = wing->sections[i];
-    const Transform place = map * transform_of({s.leading_edge, {s.dihedral, s.twist, s.yaw}});
-    if (s.loop.empty()) lines.push_back({place.point({}), place.point({s.chord, 0.0, 0.0})});
+    const Transform location = map * transform_of({s.leading_edge, {s.dihedral, s.twist, s.yaw}});
+    if (s.loop.empty()) lines.push_back({location.point({}), location.point({s.chord, 0.0, 0.0})});
     else lines.push_back({map.point(s.loop[s.loop.size() / 2]), map.point(0.5 * (s.loop.front() + s.loop.back()))});
   }
   std::vector<double> at{0.0};
   for (std::size_t i = 1; i < lines.size(); ++i)
     at.push_back(at.back() + std::hypot(lines[i].leading.y - lines[i - 1].leading.y, lines[i].leading.z - lines[i - 1].leading.z));
-  const double wanted = *span * at.back();
+  const double requested = *span * at.back();
   std::size_t i = 1;
-  while (i + 1 < lines.size() && at[i] < wanted) ++i;
-  const double t = (wanted - at[i - 1]) / (at[i] - at[i - 1]);
+  while (i + 1 < lines.size() && at[i] < requested) ++i;
+  const double t = (requested - at[i - 1]) / (at[i] - at[i - 1]);
   const Point leading = lines[i - 1].leading + t * (lines[i].leading - lines[i - 1].leading),
               trailing = lines[i - 1].trailing + t * (lines[i].trailing - lines[i - 1].trailing);
   return list_of(leading + *chord * (trailing - leading));

@@ -8,10 +8,10 @@
 #include "geom/base/error.h"
 #include "scripting/lua/verb_tools.h"
 #include "scripting/values/disc_verbs.h"
-#include "scripting/values/envelope_site.h"
+#include "scripting/values/envelope_domain.h"
 #include "scripting/values/layer_options.h"
 #include "scripting/values/patch_rules.h"
-#include "scripting/values/stages.h"
+#include "scripting/values/stored_stages.h"
 #include "scripting/values/wake_verbs.h"
 #include "scripting/verbs/farfield_verbs.h"
 #include "volmesh/envelope/initial.h"
@@ -21,8 +21,8 @@ namespace sterna::scripting {
 namespace {
 
 using volmesh::EnvelopeStep;
+using volmesh::LayerDomain;
 using volmesh::MeshCase;
-using volmesh::MeshingSite;
 
 /// Returns the options of the envelope with these names, separated by blanks, and those of the farfield if the list contains it.
 OptionTable some_options(MeshCase& options, std::string_view names) {
@@ -36,13 +36,13 @@ OptionTable some_options(MeshCase& options, std::string_view names) {
 
 /// Rejects walls with placed parts, and periodic sides. The steps treat the wall as one surface, but make_envelope performs further steps in these cases, so
 /// the steps would not give its envelope.
-void require_one_part(const ScriptCall& call, const MeshingSite& site, const RunContext& context) {
-  if (!site.options.periodic.empty())
+void require_one_part(const ScriptCall& call, const LayerDomain& layer_domain, const RunContext& context) {
+  if (!layer_domain.options.periodic.empty())
     reject(call, "the single envelope steps do not keep periodic sides identical", "make_envelope{ wall, periodic = ... } performs all steps");
-  const std::vector<volmesh::WholePart> parts = volmesh::whole_parts(site.domain, site.options.parts, context);
+  const std::vector<volmesh::WholePart> parts = volmesh::whole_parts(layer_domain.domain, layer_domain.options.parts, context);
   if (parts.empty()) return;
-  const volmesh::PlacedPart& first = site.options.parts[parts.front().part];
-  if (parts.size() == 1 && first.placement == Transform{} && first.own->n_triangles() == site.base.wall.n_triangles()) return;
+  const volmesh::PlacedPart& first = layer_domain.options.parts[parts.front().part];
+  if (parts.size() == 1 && first.placement == Transform{} && first.own->n_triangles() == layer_domain.base.wall.n_triangles()) return;
   reject(call,
          "the wall has " + std::to_string(parts.size()) + (parts.size() == 1 ? " part" : " parts") +
              " with envelopes made in their own frames, then moved and separated from each other: the single envelope steps take a wall as a whole",
@@ -91,10 +91,10 @@ ScriptValue classify(const ScriptCall& call) {
   const RunContext context = call.session.context.part("classify", 0.0, 1.0);
   EnvelopeValue value{.wall = with_inputs(wall, inputs), .options = options, .stage = {}, .step = EnvelopeStep::classified};
   value.stage.feature_angle = options.envelope.feature_angle;
-  const auto site = envelope_site(value, context);
-  require_one_part(call, *site, context);
-  value.classes = std::make_shared<const volmesh::Classification>(volmesh::classify_vertices(site->base, site->options.envelope, context));
-  value.stage.feature_angle = site->options.envelope.feature_angle;
+  const auto layer_domain = envelope_domain(value, context);
+  require_one_part(call, *layer_domain, context);
+  value.classes = std::make_shared<const volmesh::Classification>(volmesh::classify_vertices(layer_domain->base, layer_domain->options.envelope, context));
+  value.stage.feature_angle = layer_domain->options.envelope.feature_angle;
   return std::make_shared<const EnvelopeValue>(std::move(value));
 }
 
@@ -127,9 +127,9 @@ ScriptValue make_initial(const ScriptCall& call) {
   const RunContext context = call.session.context.part("initial", 0.0, 1.0);
   EnvelopeValue value{.wall = with_inputs((*classes)->wall, inputs), .options = options, .stage = {}, .step = EnvelopeStep::initial};
   value.stage.feature_angle = (*classes)->stage.feature_angle;
-  const auto site = envelope_site(value, context);
-  require_one_part(call, *site, context);
-  value.stage.envelope = volmesh::initial_envelope(site->base, site->options.envelope, context);
+  const auto layer_domain = envelope_domain(value, context);
+  require_one_part(call, *layer_domain, context);
+  value.stage.envelope = volmesh::initial_envelope(layer_domain->base, layer_domain->options.envelope, context);
   return std::make_shared<const EnvelopeValue>(std::move(value));
 }
 
@@ -140,23 +140,25 @@ struct Step {
   EnvelopeStep needs, makes;
   std::string_view options;
   std::string_view usage;
-  void (*run)(MeshingSite&, volmesh::Envelope&, const RunContext&);
+  void (*run)(LayerDomain&, volmesh::Envelope&, const RunContext&);
 };
 
-void run_smooth(MeshingSite& site, volmesh::Envelope& envelope, const RunContext& context) {
-  volmesh::smooth_step(site.base, volmesh::classify_vertices(site.base, site.options.envelope, context), site.options.envelope, envelope, context);
+void run_smooth(LayerDomain& layer_domain, volmesh::Envelope& envelope, const RunContext& context) {
+  volmesh::smooth_step(layer_domain.base, volmesh::classify_vertices(layer_domain.base, layer_domain.options.envelope, context), layer_domain.options.envelope,
+                       envelope, context);
 }
-void run_untangle(MeshingSite& site, volmesh::Envelope& envelope, const RunContext& context) {
-  volmesh::untangle_step(site.base, site.options.envelope, envelope, context);
+void run_untangle(LayerDomain& layer_domain, volmesh::Envelope& envelope, const RunContext& context) {
+  volmesh::untangle_step(layer_domain.base, layer_domain.options.envelope, envelope, context);
 }
-void run_unwarp(MeshingSite& site, volmesh::Envelope& envelope, const RunContext& context) {
-  volmesh::unwarp_step(site.base, volmesh::classify_vertices(site.base, site.options.envelope, context), site.options.envelope, envelope, context);
+void run_unwarp(LayerDomain& layer_domain, volmesh::Envelope& envelope, const RunContext& context) {
+  volmesh::unwarp_step(layer_domain.base, volmesh::classify_vertices(layer_domain.base, layer_domain.options.envelope, context), layer_domain.options.envelope,
+                       envelope, context);
 }
-void run_retract(MeshingSite& site, volmesh::Envelope& envelope, const RunContext& context) {
-  volmesh::retract_step(site.base, site.options.envelope, site.collider, envelope, context);
+void run_retract(LayerDomain& layer_domain, volmesh::Envelope& envelope, const RunContext& context) {
+  volmesh::retract_step(layer_domain.base, layer_domain.options.envelope, layer_domain.collider, envelope, context);
 }
-void run_optimise(MeshingSite& site, volmesh::Envelope& envelope, const RunContext& context) {
-  volmesh::optimise_step(site.base, site.options.envelope, site.collider, envelope, context);
+void run_optimise(LayerDomain& layer_domain, volmesh::Envelope& envelope, const RunContext& context) {
+  volmesh::optimise_step(layer_domain.base, layer_domain.options.envelope, layer_domain.collider, envelope, context);
 }
 
 constexpr std::array<Step, 5> k_steps = {{
@@ -193,9 +195,9 @@ ScriptValue run_step(const ScriptCall& call) {
   apply_overrides(call, schema);
   reader.finish();
   const RunContext context = call.session.context.part(call.verb.substr(call.verb.find('.') + 1), 0.0, 1.0);
-  const auto site = envelope_site(value, context);
-  require_one_part(call, *site, context);
-  step.run(*site, value.stage.envelope, context);
+  const auto layer_domain = envelope_domain(value, context);
+  require_one_part(call, *layer_domain, context);
+  step.run(*layer_domain, value.stage.envelope, context);
   value.step = step.makes;
   return std::make_shared<const EnvelopeValue>(std::move(value));
 }

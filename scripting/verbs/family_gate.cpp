@@ -29,8 +29,8 @@ void read_manifest(const std::filesystem::path& file, FamilyMember& member, cons
   const nlohmann::json json = nlohmann::json::parse(stream, nullptr, false);
   if (json.is_discarded() || !json.is_object() || json.value("schema", "") != "sterna-manifest-1")
     return context.warn(path.string() + " is not the manifest of a mesh and is ignored");
-  const auto number = [&](const char* place) -> std::optional<double> {
-    const nlohmann::json::json_pointer at(place);
+  const auto number = [&](const char* location) -> std::optional<double> {
+    const nlohmann::json::json_pointer at(location);
     return json.contains(at) && json[at].is_number() ? std::optional(json[at].get<double>()) : std::nullopt;
   };
   if (number("/mesh/nodes") != static_cast<double>(member.nodes))

@@ -187,7 +187,7 @@ ScriptTable with_farfield(const ScriptCall& call, ScriptTable table, std::shared
   SurfaceHandle of_surface;
   if (const auto* handle = std::get_if<SurfaceHandle>(&given)) of_surface = *handle;
   else if (call.session.check && (std::holds_alternative<ModelHandle>(given) || std::holds_alternative<ComponentHandle>(given)))
-    of_surface = std::get<SurfaceHandle>(stand_in(call, "surface"));
+    of_surface = std::get<SurfaceHandle>(placeholder(call, "surface"));
   else if (std::holds_alternative<ModelHandle>(given) || std::holds_alternative<ComponentHandle>(given))
     of_surface = std::make_shared<const SurfaceValue>(mesh_models({model_of(given, call)}, {}, {}, context, call.session.reuse()));
   if (of_surface) options.fields["shape"] = std::string("surface");
@@ -198,7 +198,7 @@ ScriptTable with_farfield(const ScriptCall& call, ScriptTable table, std::shared
   };
   if (call.session.check && !text_of("surface").empty()) {
     find_input(call, text_of("surface"));
-    of_surface = std::get<SurfaceHandle>(stand_in(call, "surface"));
+    of_surface = std::get<SurfaceHandle>(placeholder(call, "surface"));
   }
   if (!of_surface)
     of_surface = read_farfield(

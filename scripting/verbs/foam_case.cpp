@@ -55,7 +55,7 @@ void complete_flow(FoamSetup& setup, const RunContext& context) {
 void choose_correction(FoamSetup& setup, const CaseMeasure& non_orthogonality) {
   const double degrees = non_orthogonality.worst * k_degrees;
   const std::string measured = fmt::format("The largest angle between a face normal and the line through the centres of its cells is {:.4g} degrees{}", degrees,
-                                           at_place(non_orthogonality));
+                                           at_location(non_orthogonality));
   if (degrees <= k_full_correction) {
     setup.correction_reason = fmt::format("{}: up to {:g} the full correction is applied.", measured, k_full_correction);
   } else if (degrees <= k_half_correction) {
@@ -81,26 +81,26 @@ void set_turbulence(FoamSetup& setup) {
 }
 
 /// Returns the direction of the flow: that of a tunnel's inflow, else the direction given by the angles. x points aft, z up.
-Vec3 direction_of(const HybridMesh& mesh, const CaseSite& site, const CaseOptions& common) {
-  if (site.is_tunnel)
+Vec3 direction_of(const HybridMesh& mesh, const CasePatches& case_patches, const CaseOptions& common) {
+  if (case_patches.is_tunnel)
     for (const PatchId p : mesh.patches.ids())
-      if (mesh.patches[p].kind == PatchKind::inflow && site.facts[p].n_faces > 0) return inward_normal(site.facts[p]);
+      if (mesh.patches[p].kind == PatchKind::inflow && case_patches.facts[p].n_faces > 0) return inward_normal(case_patches.facts[p]);
   const double a = common.alpha, b = common.beta;
   return {std::cos(a) * std::cos(b), clean_component(std::sin(b), 1.0), clean_component(std::sin(a) * std::cos(b), 1.0)};
 }
 
-void tell(const FoamSetup& setup, const CaseSite& site, const CaseReference& reference, const RunContext& context) {
+void report(const FoamSetup& setup, const CasePatches& case_patches, const CaseReference& reference, const RunContext& context) {
   std::string text = fmt::format("OpenFOAM: {}, {}, forces of {} patches", setup.application, setup.model, setup.monitored.size());
-  if (site.is_internal) {
+  if (case_patches.is_internal) {
     text = fmt::format("OpenFOAM: {}, {}, internal flow: postProcessing has mean pressures and flow rates of the openings", setup.application, setup.model);
     if (setup.has_pressure_drop()) text += " and the pressure drop";
   } else if (is_automatic(setup.area)) {
     text += "; no reference area is given, so forces are in N, without coefficients";
   } else {
-    text +=
-        fmt::format(", reference area {:.6g} m^2{}{}, length {:.6g} m, moments about ({:.6g}, {:.6g}, {:.6g}) m", setup.area,
-                    site.is_half ? fmt::format(" (half of {:.6g}: half model)", reference.area) : "", reference.source.empty() ? "" : " of " + reference.source,
-                    setup.length, setup.moment_origin.x, setup.moment_origin.y, setup.moment_origin.z);
+    text += fmt::format(", reference area {:.6g} m^2{}{}, length {:.6g} m, moments about ({:.6g}, {:.6g}, {:.6g}) m", setup.area,
+                        case_patches.is_half ? fmt::format(" (half of {:.6g}: half model)", reference.area) : "",
+                        reference.source.empty() ? "" : " of " + reference.source, setup.length, setup.moment_origin.x, setup.moment_origin.y,
+                        setup.moment_origin.z);
   }
   context.info(text);
   if (!setup.is_density_known && !setup.is_compressible)
@@ -117,16 +117,16 @@ void warn_of_collapsed_lines(const HybridMesh& mesh, const RunContext& context) 
   const auto n = std::ranges::count_if(is_collapsed, [](std::uint8_t value) { return value != 0; });
   if (n == 0) return;
   const auto first = static_cast<std::size_t>(std::ranges::find_if(is_collapsed, [](std::uint8_t value) { return value != 0; }) - is_collapsed.begin());
-  const Point& place = mesh.points[NodeId(mesh.layers.first_node[first])];
+  const Point& location = mesh.points[NodeId(mesh.layers.first_node[first])];
   context.warn(
       fmt::format("OpenFOAM: the layer has no height at {} of the walls, the first at ({:.6g}, {:.6g}, {:.6g}): runs can diverge beside such vertices in "
                   "narrow crevices and gaps. Fill them with fill_crevices{{ wall, width = ... }} (docs/crevices.md), move the parts there apart or into each "
                   "other, or refine the wall there; the report of the mesh gives the reason at each vertex",
-                  n == 1 ? std::string("a vertex") : fmt::format("{} vertices", n), place.x, place.y, place.z));
+                  n == 1 ? std::string("a vertex") : fmt::format("{} vertices", n), location.x, location.y, location.z));
 }
 
 /// Warns about options that are given but have no effect in this case.
-void tell_without_effect(const FoamSetup& setup, const RunContext& context) {
+void report_without_effect(const FoamSetup& setup, const RunContext& context) {
   const FoamOptions &given = setup.options, usual;
   const auto warn = [&](bool is_given, const char* name, const std::string& why) {
     if (is_given) context.warn(std::string("OpenFOAM: ") + name + " has no effect: " + why);
@@ -154,9 +154,9 @@ void require_foam_flow(const FoamOptions& options, const volmesh::FlowState& flo
 FoamCase foam_case(const HybridMesh& mesh, const FoamOptions& options, const CaseOptions& common, const volmesh::FlowState& flow,
                    const CaseReference& reference, const CaseBoundaries& boundaries, const RunContext& context, const CaseMeasure& non_orthogonality) {
   CaseProblems problems;
-  const CaseSite site = case_site(mesh, common, problems);
+  const CasePatches case_patches = find_case_patches(mesh, common, problems);
   FoamSetup setup{.options = options, .common = common, .flow = flow};
-  setup.model = options.model != "automatic" ? options.model : site.has_layers ? "SpalartAllmaras" : "euler";
+  setup.model = options.model != "automatic" ? options.model : case_patches.has_layers ? "SpalartAllmaras" : "euler";
   setup.is_viscous = setup.model != "euler";
   setup.is_turbulent = setup.is_viscous && setup.model != "laminar";
   setup.is_compressible = is_compressible(options, flow);
@@ -166,31 +166,31 @@ FoamCase foam_case(const HybridMesh& mesh, const FoamOptions& options, const Cas
   complete_flow(setup, context);
   set_turbulence(setup);
   choose_correction(setup, non_orthogonality);
-  setup.velocity = setup.flow.speed * direction_of(mesh, site, common);
-  setup.area = reference_area(reference, site);
+  setup.velocity = setup.flow.speed * direction_of(mesh, case_patches, common);
+  setup.area = reference_area(reference, case_patches);
   setup.length = reference_length(reference, setup.flow);
   setup.moment_origin = moment_origin(reference, setup.flow);
   const std::vector<std::string> names = io::foam_patch_names(mesh.patches, RunContext());
-  for (const PatchId p : site.monitored) setup.monitored.push_back(names[p.index()]);
-  if (site.is_tunnel) {
-    for (const PatchId p : site.inflows) setup.inflows.push_back(names[p.index()]);
-    for (const PatchId p : site.outflows) setup.outflows.push_back(names[p.index()]);
+  for (const PatchId p : case_patches.monitored) setup.monitored.push_back(names[p.index()]);
+  if (case_patches.is_tunnel) {
+    for (const PatchId p : case_patches.inflows) setup.inflows.push_back(names[p.index()]);
+    for (const PatchId p : case_patches.outflows) setup.outflows.push_back(names[p.index()]);
   }
 
-  if (!site.is_internal && !setup.monitored.empty()) setup.settles_by = "forces/*/force*.dat";
-  if (site.is_internal && setup.has_pressure_drop())
+  if (!case_patches.is_internal && !setup.monitored.empty()) setup.settles_by = "forces/*/force*.dat";
+  if (case_patches.is_internal && setup.has_pressure_drop())
     setup.settles_by = setup.pressure_drop(setup.inflows.front(), setup.outflows.front()) + "/*/fieldValueDelta*.dat";
-  setup.has_fast_openings = site.is_tunnel || !boundaries.empty();
+  setup.has_fast_openings = case_patches.is_tunnel || !boundaries.empty();
 
   FoamCase result{.application = setup.application, .files = {}, .joined = {}};
   UsedBoundaries used(boundaries);
-  result.files = foam_fields(mesh, site, names, setup, used, result.joined, problems);
+  result.files = foam_fields(mesh, case_patches, names, setup, used, result.joined, problems);
   used.require_used(problems);
   problems.require_none("making a case of OpenFOAM");
   for (CaseFile& file : foam_settings(setup)) result.files.push_back(std::move(file));
-  tell(setup, site, reference, context);
+  report(setup, case_patches, reference, context);
   if (setup.is_viscous) warn_of_collapsed_lines(mesh, context);
-  tell_without_effect(setup, context);
+  report_without_effect(setup, context);
   return result;
 }
 

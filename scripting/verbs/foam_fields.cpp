@@ -31,15 +31,15 @@ std::string replaced(std::string text, const std::string& what, const std::strin
 
 class FoamFields {
  public:
-  FoamFields(const HybridMesh& mesh, const CaseSite& site, const std::vector<std::string>& names, const FoamSetup& setup, UsedBoundaries& boundaries,
+  FoamFields(const HybridMesh& mesh, const CasePatches& case_patches, const std::vector<std::string>& names, const FoamSetup& setup, UsedBoundaries& boundaries,
              std::vector<PeriodicSides>& joined, CaseProblems& problems)
-      : mesh_(mesh), site_(site), names_(names), setup_(setup), boundaries_(boundaries), joined_(joined), problems_(problems) {}
+      : mesh_(mesh), case_patches_(case_patches), names_(names), setup_(setup), boundaries_(boundaries), joined_(joined), problems_(problems) {}
 
   std::vector<CaseFile> files() {
     std::vector<PatchConditions> all;
     std::vector<std::string> names;
     for (const PatchId p : mesh_.patches.ids()) {
-      if (site_.facts[p].n_faces == 0) continue;
+      if (case_patches_.facts[p].n_faces == 0) continue;
       all.push_back(conditions(p));
       names.push_back(names_[p.index()]);
     }
@@ -145,12 +145,12 @@ class FoamFields {
                       .transported = "type fixedValue; value uniform VALUE;",
                       .nut = k_calculated,
                       .alphat = k_calculated};
-    if (site_.is_tunnel && is_automatic(given.total_pressure)) {
-      c.velocity = "type fixedValue; value uniform " + foam_vector(setup_.flow.speed * inward_normal(site_.facts[p])) + ";";
+    if (case_patches_.is_tunnel && is_automatic(given.total_pressure)) {
+      c.velocity = "type fixedValue; value uniform " + foam_vector(setup_.flow.speed * inward_normal(case_patches_.facts[p])) + ";";
       c.pressure = is_supersonic() ? "type fixedValue; value uniform VALUE;" : "type zeroGradient;";
       return c;
     }
-    if (is_automatic(given.total_pressure) || (setup_.is_compressible && is_automatic(given.total_temperature) && !site_.is_tunnel)) {
+    if (is_automatic(given.total_pressure) || (setup_.is_compressible && is_automatic(given.total_temperature) && !case_patches_.is_tunnel)) {
       problems_.add(unknown("the inflow", p, setup_.is_compressible ? "total_pressure = ..., total_temperature = ..." : "total_pressure = ..."));
       return c;
     }
@@ -173,7 +173,7 @@ class FoamFields {
                       .nut = k_calculated,
                       .alphat = k_calculated,
                       .potential = "type fixedValue; value uniform 0;"};
-    if (!site_.is_tunnel && is_automatic(given.pressure)) {
+    if (!case_patches_.is_tunnel && is_automatic(given.pressure)) {
       problems_.add(unknown("the outflow", p, "pressure = ..."));
       return c;
     }
@@ -186,19 +186,19 @@ class FoamFields {
   /// Returns the conditions of one side of an actuator disc. The two sides become cyclic patches, over which the pressure rises in the direction of the flow.
   PatchConditions disc(PatchId p) {
     PatchConditions c = constrained("cyclic");
-    const PatchId front = front_of_disc(mesh_, site_, p).value_or(p);
+    const PatchId front = front_of_disc(mesh_, case_patches_, p).value_or(p);
     const bool is_front = front == p;
-    const std::optional<PatchId> back = back_of_disc(mesh_, site_, front);
+    const std::optional<PatchId> back = back_of_disc(mesh_, case_patches_, front);
     if (!back) {
       problems_.add("patch \"" + mesh_.patches[p].name + "\" is of kind interface, but no side of an actuator disc: its boundary condition is unknown");
       return c;
     }
     if (is_front) joined_.push_back({front, *back, {}});
-    CaseProblems told;  // for the back: problems are reported with the front
-    const std::optional<double> jump = boundaries_.pressure_jump(mesh_.patches[front], site_.facts[front].size, is_front ? problems_ : told);
+    CaseProblems reported;  // for the back: problems are reported with the front
+    const std::optional<double> jump = boundaries_.pressure_jump(mesh_.patches[front], case_patches_.facts[front].size, is_front ? problems_ : reported);
     if (!jump) return c;
     if (!setup_.is_compressible && !setup_.is_density_known) {
-      (is_front ? problems_ : told).add("the thrust of \"" + mesh_.patches[front].name + "\" needs the density of the flow: give altitude, or density");
+      (is_front ? problems_ : reported).add("the thrust of \"" + mesh_.patches[front].name + "\" needs the density of the flow: give altitude, or density");
       return c;
     }
     const std::string value = case_number((is_front ? 1.0 : -1.0) * (setup_.is_compressible ? *jump : *jump / setup_.density));
@@ -207,7 +207,7 @@ class FoamFields {
   }
 
   const HybridMesh& mesh_;
-  const CaseSite& site_;
+  const CasePatches& case_patches_;
   const std::vector<std::string>& names_;
   const FoamSetup& setup_;
   UsedBoundaries& boundaries_;
@@ -219,9 +219,9 @@ class FoamFields {
 
 std::string foam_vector(const Vec3& v) { return "(" + case_number(v.x) + " " + case_number(v.y) + " " + case_number(v.z) + ")"; }
 
-std::vector<CaseFile> foam_fields(const HybridMesh& mesh, const CaseSite& site, const std::vector<std::string>& names, const FoamSetup& setup,
+std::vector<CaseFile> foam_fields(const HybridMesh& mesh, const CasePatches& case_patches, const std::vector<std::string>& names, const FoamSetup& setup,
                                   UsedBoundaries& boundaries, std::vector<PeriodicSides>& joined, CaseProblems& problems) {
-  return FoamFields(mesh, site, names, setup, boundaries, joined, problems).files();
+  return FoamFields(mesh, case_patches, names, setup, boundaries, joined, problems).files();
 }
 
 }  // namespace sterna::scripting

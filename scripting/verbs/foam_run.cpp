@@ -23,7 +23,7 @@ constexpr double k_speed_bound = 0.4, k_near_bound = 0.9;
 /// single cell at the tail of a business jet touched the bound now and then.
 constexpr int k_many_near_bound = 25;
 constexpr int k_first_watched = 15, k_first_watched_in_gas = 30;  ///< iterations until the disturbance by the start has faded
-constexpr double k_place_radius = 0.02;                           ///< radius of the picture of a location, over the reference length of the flow
+constexpr double k_location_radius = 0.02;                        ///< radius of the picture of a location, over the reference length of the flow
 
 constexpr std::string_view k_judge = R"AWK(# Reads the output of function objects, one value or force per iteration, and tests it.
 # awk -f judge.awk -v what=settled -v window=200 -v share=0.002 -v drag="1 0 0" -v lift="0 0 1" FILES prints "settled PERCENT", "moving PERCENT" or "short"
@@ -297,7 +297,7 @@ class RunFiles {
     set("many", std::to_string(s_.is_compressible ? k_many_near_bound : 0),
         "number of the last 50 iterations that may exceed the limit: bounded velocities of gases return");
     set("watched", std::to_string(first_watched(s_)), "first iteration at which the velocity is tested; before, the impulse of the start has not faded");
-    set("radius", case_number(k_place_radius * s_.flow.length), "m, radius of a picture of that location");
+    set("radius", case_number(k_location_radius * s_.flow.length), "m, radius of a picture of that location");
     set("has_potential", has_potential() ? "yes" : "no", "fluxes of potentialFoam at the start; supersonic flow has no such potential");
     set("density", has_mass_fluxes() ? case_number(s_.density) : "", "kg/m^3, density of the free stream: the fluxes are mass fluxes; empty: volume fluxes");
     return text;

@@ -62,7 +62,7 @@ struct FoamSetup {
 };
 
 /// Returns the files of 0/, one for each field that the solver reads. \p boundaries records which conditions were used.
-std::vector<CaseFile> foam_fields(const HybridMesh& mesh, const CaseSite& site, const std::vector<std::string>& names, const FoamSetup& setup,
+std::vector<CaseFile> foam_fields(const HybridMesh& mesh, const CasePatches& case_patches, const std::vector<std::string>& names, const FoamSetup& setup,
                                   UsedBoundaries& boundaries, std::vector<PeriodicSides>& joined, CaseProblems& problems);
 /// Returns the files of constant/ (except the mesh) and system/, Allrun and Allclean.
 std::vector<CaseFile> foam_settings(const FoamSetup& setup);

@@ -43,7 +43,7 @@ TableHandle point_table(const Point& p) {
 }
 
 TableHandle finding_table(const volmesh::Finding& finding) {
-  ScriptTable table, places;
+  ScriptTable table, locations;
   table.fields = {{"kind", std::string(to_string(finding.kind))},
                   {"severity", std::string(to_string(finding.severity))},
                   {"count", finding.count},
@@ -53,16 +53,16 @@ TableHandle finding_table(const volmesh::Finding& finding) {
   set_number(table, "share", finding.share);
   set_number(table, "value", finding.value);
   set_number(table, "limit", finding.limit);
-  for (const volmesh::FindingPlace& place : finding.places) {
+  for (const volmesh::FindingLocation& location : finding.locations) {
     ScriptTable entry;
-    entry.fields = {{"at", point_table(place.position)}, {"patch", place.patch}, {"value", place.value}, {"what", place.what}};
-    places.items.emplace_back(handle(std::move(entry)));
+    entry.fields = {{"at", point_table(location.position)}, {"patch", location.patch}, {"value", location.value}, {"what", location.what}};
+    locations.items.emplace_back(handle(std::move(entry)));
   }
-  if (!finding.places.empty()) {
-    table.fields["at"] = point_table(finding.places.front().position);
-    table.fields["patch"] = finding.places.front().patch;
+  if (!finding.locations.empty()) {
+    table.fields["at"] = point_table(finding.locations.front().position);
+    table.fields["patch"] = finding.locations.front().patch;
   }
-  table.fields["places"] = handle(std::move(places));
+  table.fields["places"] = handle(std::move(locations));
   return handle(std::move(table));
 }
 
@@ -77,7 +77,7 @@ TableHandle preparation_table(const Preparation& preparation) {
                   {"basis", preparation.basis},
                   {"remesh", preparation.is_remesh_advised},
                   {"needle_share", preparation.needle_share}};
-  if (preparation.place) table.fields["at"] = point_table(*preparation.place);
+  if (preparation.location) table.fields["at"] = point_table(*preparation.location);
   return handle(std::move(table));
 }
 
@@ -203,6 +203,6 @@ constexpr std::array<ScriptVerb, 1> k_inspect_verbs = {{
 
 std::span<const ScriptVerb> inspect_verbs() { return k_inspect_verbs; }
 
-ScriptValue inspection_stand_in() { return report_table({}); }
+ScriptValue inspection_placeholder() { return report_table({}); }
 
 }  // namespace sterna::scripting

@@ -10,6 +10,6 @@ namespace sterna::scripting {
 std::span<const ScriptVerb> inspect_verbs();
 
 /// Returns a placeholder for the table of an inspection, without findings, for a script that is only checked.
-ScriptValue inspection_stand_in();
+ScriptValue inspection_placeholder();
 
 }  // namespace sterna::scripting

@@ -31,7 +31,7 @@ struct Schema<scripting::SurfaceCheckOptions> {
 namespace sterna::scripting {
 namespace {
 
-void tell_what_was_left_out(const surfmesh::Deviation& deviation, const RunContext& context) {
+void report_left_out(const surfmesh::Deviation& deviation, const RunContext& context) {
   if (!deviation.unknown.empty()) {
     std::string names;
     for (const std::string& name : deviation.unknown) names += (names.empty() ? "\"" : ", \"") + name + "\"";
@@ -57,7 +57,7 @@ ScriptValue check_surface(const ScriptCall& call) {
   require_model_wall(*surface, call.attempted());
   const RunContext context = call.session.context.part("check", 0.0, 1.0);
   const surfmesh::Deviation deviation = surfmesh::measure_deviation(surface->mesh, surface->mesh, *surface->model_wall, {}, context);
-  tell_what_was_left_out(deviation, context);
+  report_left_out(deviation, context);
   std::string text =
       count_text(deviation.n_nodes) + " nodes and " + count_text(deviation.n_facets) + " triangles against the model, " + describe(*surface) + "\n";
   for (const GateResult& gate : {deviation.distance, deviation.normal}) text += to_text(gate);
@@ -68,10 +68,11 @@ ScriptValue check_surface(const ScriptCall& call) {
                  .problem = "the surface deviates from its model by more than the hard limits of G17 and G18"};
   for (const GateResult& gate : {deviation.distance, deviation.normal}) {
     if (gate.state != GateState::fail) continue;
-    info.n_places += gate.n_beyond_hard;
-    for (const GatePlace& place : gate.places) info.places.push_back({place.position, std::string(info_of(gate.measure).title) + ", " + place.what});
+    info.n_locations += gate.n_beyond_hard;
+    for (const GateLocation& location : gate.locations)
+      info.locations.push_back({location.position, std::string(info_of(gate.measure).title) + ", " + location.what});
   }
-  if (info.n_places > 0) throw Error(std::move(info));
+  if (info.n_locations > 0) throw Error(std::move(info));
   return surface;
 }
 
@@ -88,7 +89,7 @@ void require_model_wall(const SurfaceValue& wall, const std::string& attempted) 
 
 void measure_on_model(const HybridMesh& mesh, const SurfaceValue& wall, const GateTable& limits, CheckReport& report, const RunContext& context) {
   surfmesh::Deviation deviation = surfmesh::measure_deviation(mesh, wall.mesh, *wall.model_wall, limits, context);
-  tell_what_was_left_out(deviation, context);
+  report_left_out(deviation, context);
   report.put(std::move(deviation.distance));
   report.put(std::move(deviation.normal));
 }

@@ -227,7 +227,7 @@ ScriptValue rename_model(const ScriptCall& call) {
     reader.field(from);
     const auto* to = std::get_if<std::string>(&value);
     if (!to || to->empty()) reader.add_problem(from + ": expected a new name, not " + std::string(to ? "an empty string" : type_text(value)));
-    if (std::find(known.begin(), known.end(), from) == known.end() && !is_stand_in(call, handle)) {
+    if (std::find(known.begin(), known.end(), from) == known.end() && !is_placeholder(call, handle)) {
       const std::string nearest = nearest_name(from, known);
       reader.add_problem("no component and no face is named \"" + from + "\"" + (nearest.empty() ? "" : ", did you mean \"" + nearest + "\"?"));
     }
@@ -267,7 +267,7 @@ ScriptValue set_kinds(const ScriptCall& call) {
       is_used = true;
       face.kind = kind;
     }
-    if (!is_used && !is_stand_in(call, handle)) reader.add_problem("no face has a name like \"" + pattern + "\"");
+    if (!is_used && !is_placeholder(call, handle)) reader.add_problem("no face has a name like \"" + pattern + "\"");
   }
   if (patterns.empty()) reader.add_problem("expected names of faces: " + std::string(k_kinds_usage));
   reader.finish();
@@ -347,7 +347,7 @@ ScriptValue write_model_files(const ScriptCall& call) {
   reader.read_options(sterna::options_of(options));
   for (const auto& name : names) note_output(call, name);
   for (const auto& name : names)
-    if (!is_stand_in(call, model) || name.extension() != ".smx") require_model_output(*model, name);
+    if (!is_placeholder(call, model) || name.extension() != ".smx") require_model_output(*model, name);
   reader.finish();
   for (const auto& name : names) {
     write_model(*model, name, options, call.session.context.part("write", 0.0, 1.0));
@@ -386,7 +386,7 @@ ScriptValue names_of(const Column& column) {
 ScriptValue model_field(const ScriptCall& call) {
   const ModelHandle& handle = self<ModelHandle>(call);
   const auto* name = call.arguments.size() < 2 ? nullptr : std::get_if<std::string>(&call.arguments[1]);
-  if (name && is_stand_in(call, handle) && name->find_first_of("*?") != std::string::npos) return handle;
+  if (name && is_placeholder(call, handle) && name->find_first_of("*?") != std::string::npos) return handle;
   if (name && name->find_first_of("*?") != std::string::npos) return changed(handle, select_components(handle->model, *name, call.attempted()), "select");
   const Model& model = handle->model;
   Fields fields = {{"components", names_of(model.components)},

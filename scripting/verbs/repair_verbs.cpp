@@ -73,7 +73,7 @@ constexpr std::array<ScriptVerb, 2> k_repair_verbs = {{
 }};
 
 /// Returns true if an entry (true, false or a table) requests a step. Options of a table go to `schema`.
-bool is_asked(TableReader& reader, const ScriptCall& call, const std::string& name, const OptionTable& schema) {
+bool is_requested(TableReader& reader, const ScriptCall& call, const std::string& name, const OptionTable& schema) {
   const ScriptValue* value = reader.field(name);
   if (value == nullptr) return false;
   if (const auto* flag = std::get_if<bool>(value)) return *flag;
@@ -94,24 +94,24 @@ bool is_asked(TableReader& reader, const ScriptCall& call, const std::string& na
 std::span<const ScriptVerb> repair_verbs() { return k_repair_verbs; }
 
 SurfaceReader read_surface_entry(TableReader& reader, const ScriptCall& call) {
-  AutoSurface asked;
-  const bool is_repaired = is_asked(reader, call, "repair", sterna::options_of(asked.repair));
-  const bool is_wrapped = is_asked(reader, call, "wrap", sterna::options_of(asked.wrap));
-  const bool is_auto = is_asked(reader, call, "auto", {});
+  AutoSurface requested;
+  const bool is_repaired = is_requested(reader, call, "repair", sterna::options_of(requested.repair));
+  const bool is_wrapped = is_requested(reader, call, "wrap", sterna::options_of(requested.wrap));
+  const bool is_auto = is_requested(reader, call, "auto", {});
   if (is_repaired + is_wrapped + is_auto > 1) reader.add_problem("at most one of repair, wrap and auto");
   if (is_auto)
-    return [asked](const std::vector<InputPath>& files, const surfmesh::StitchOptions& stitching, const RunContext& context, const Reuse& reuse) {
-      AutoSurface with_reading = asked;
+    return [requested](const std::vector<InputPath>& files, const surfmesh::StitchOptions& stitching, const RunContext& context, const Reuse& reuse) {
+      AutoSurface with_reading = requested;
       with_reading.stitching = stitching;
       return auto_surface(files, with_reading, reuse, context);
     };
   if (is_repaired)
-    return [asked](const std::vector<InputPath>& files, const surfmesh::StitchOptions& stitching, const RunContext& context, const Reuse& reuse) {
-      return repair_surfaces(std::vector<UnionItem>(files.begin(), files.end()), stitching, asked.repair, reuse, context);
+    return [requested](const std::vector<InputPath>& files, const surfmesh::StitchOptions& stitching, const RunContext& context, const Reuse& reuse) {
+      return repair_surfaces(std::vector<UnionItem>(files.begin(), files.end()), stitching, requested.repair, reuse, context);
     };
   if (is_wrapped)
-    return [asked](const std::vector<InputPath>& files, const surfmesh::StitchOptions& stitching, const RunContext& context, const Reuse& reuse) {
-      surfmesh::WrapOptions wrap = asked.wrap;
+    return [requested](const std::vector<InputPath>& files, const surfmesh::StitchOptions& stitching, const RunContext& context, const Reuse& reuse) {
+      surfmesh::WrapOptions wrap = requested.wrap;
       wrap.unit = stitching.unit;
       wrap.split_angle = stitching.split_angle;
       wrap.fluid = stitching.fluid;

@@ -63,37 +63,37 @@ std::vector<std::string> names_of_patches(const HybridMesh& mesh) {
   return names;
 }
 
-void find_half(const CaseOptions& options, int n_symmetry, CaseSite& site, CaseProblems& problems) {
-  site.is_half = options.half == "yes" || (options.half == "automatic" && n_symmetry > 0);
-  if (options.half == "automatic" && n_symmetry > 1 && !site.is_internal)
+void find_half(const CaseOptions& options, int n_symmetry, CasePatches& case_patches, CaseProblems& problems) {
+  case_patches.is_half = options.half == "yes" || (options.half == "automatic" && n_symmetry > 0);
+  if (options.half == "automatic" && n_symmetry > 1 && !case_patches.is_internal)
     problems.add(
         fmt::format("the mesh has {} symmetry planes: is it a half model? give half = \"yes\" or \"no\", and the reference area accordingly", n_symmetry));
-  if (site.is_half && std::abs(options.beta) > k_straight) problems.add("a half model has no sideslip (beta)");
-  if (site.is_tunnel && (std::abs(options.alpha) > k_straight || std::abs(options.beta) > k_straight))
+  if (case_patches.is_half && std::abs(options.beta) > k_straight) problems.add("a half model has no sideslip (beta)");
+  if (case_patches.is_tunnel && (std::abs(options.alpha) > k_straight || std::abs(options.beta) > k_straight))
     problems.add("alpha and beta are not allowed in a tunnel: leave them out and rotate the model instead");
 }
 
-void find_monitored(const HybridMesh& mesh, const CaseOptions& options, CaseSite& site, CaseProblems& problems) {
-  const std::set<PatchId> of_tunnel = site.is_tunnel ? beside_openings(mesh) : std::set<PatchId>{};
+void find_monitored(const HybridMesh& mesh, const CaseOptions& options, CasePatches& case_patches, CaseProblems& problems) {
+  const std::set<PatchId> of_tunnel = case_patches.is_tunnel ? beside_openings(mesh) : std::set<PatchId>{};
   std::vector<std::string> patterns;
   std::istringstream words(options.monitor);
   for (std::string word; words >> word;) patterns.push_back(word);
   std::set<std::string> used;
   for (const PatchId p : mesh.patches.ids()) {
-    if (site.facts[p].n_faces == 0 || is_periodic(mesh, p)) continue;
-    if (patterns.empty() && mesh.patches[p].kind == PatchKind::wall) (of_tunnel.contains(p) ? site.unmonitored : site.monitored).push_back(p);
+    if (case_patches.facts[p].n_faces == 0 || is_periodic(mesh, p)) continue;
+    if (patterns.empty() && mesh.patches[p].kind == PatchKind::wall) (of_tunnel.contains(p) ? case_patches.unmonitored : case_patches.monitored).push_back(p);
     bool is_named = false;
     for (const std::string& pattern : patterns) {
       if (!matches_glob(mesh.patches[p].name, pattern)) continue;
       is_named = true;
       used.insert(pattern);
     }
-    if (is_named) site.monitored.push_back(p);
+    if (is_named) case_patches.monitored.push_back(p);
   }
   for (const std::string& pattern : patterns)
     if (!used.contains(pattern)) problems.add("monitor: no patch has a name like \"" + pattern + "\" (" + names_hint(names_of_patches(mesh), pattern) + ")");
-  site.is_internal = site.is_tunnel && site.monitored.empty() && patterns.empty();
-  if (site.monitored.empty() && patterns.empty() && !site.is_tunnel) problems.add("no wall is left for the forces: name walls with monitor");
+  case_patches.is_internal = case_patches.is_tunnel && case_patches.monitored.empty() && patterns.empty();
+  if (case_patches.monitored.empty() && patterns.empty() && !case_patches.is_tunnel) problems.add("no wall is left for the forces: name walls with monitor");
 }
 
 /// Reports the verdict for the kind of solver that uses the measure, as a warning if a gate FAILs.
@@ -121,19 +121,19 @@ CaseMeasure measured_worst(const HybridMesh& mesh, Measure measure, const CheckR
                    .attempted = "making a case of " + std::string(solver),
                    .problem = "the mesh is not conforming, so no solver can read it",
                    .hint = "`sterna check` lists the locations"};
-    if (!known->findings.empty()) info.add_place(known->findings.front().position, known->findings.front().what);
+    if (!known->findings.empty()) info.add_location(known->findings.front().position, known->findings.front().what);
     throw Error(std::move(info));
   }
   report_verdict(*known, measure, solver, context);
   const GateResult& gate = known->gate(measure);
-  CaseMeasure result{.worst = gate.worst, .place = {}};  // a mesh of one cell has no faces between cells, so the measure is 0
-  for (const auto* places : {&gate.places, &gate.forced})
-    if (!places->empty() && places->front().value == gate.worst) result.place = places->front().position;
+  CaseMeasure result{.worst = gate.worst, .location = {}};  // a mesh of one cell has no faces between cells, so the measure is 0
+  for (const auto* locations : {&gate.locations, &gate.forced})
+    if (!locations->empty() && locations->front().value == gate.worst) result.location = locations->front().position;
   return result;
 }
 
-std::string at_place(const CaseMeasure& measure) {
-  return measure.place ? fmt::format(" at ({:.6g}, {:.6g}, {:.6g})", measure.place->x, measure.place->y, measure.place->z) : "";
+std::string at_location(const CaseMeasure& measure) {
+  return measure.location ? fmt::format(" at ({:.6g}, {:.6g}, {:.6g})", measure.location->x, measure.location->y, measure.location->z) : "";
 }
 
 void CaseProblems::require_none(const std::string& attempted) const {
@@ -178,40 +178,41 @@ void require_known_kinds(const std::set<std::string>& unknown, const std::vector
                    "file instead, or put the mesh's manifest (.json) beside it"});
 }
 
-CaseSite case_site(const HybridMesh& mesh, const CaseOptions& options, CaseProblems& problems) {
-  CaseSite site;
-  site.facts = facts_of(mesh);
-  site.has_layers = mesh.layers.n_columns() > 0 || !mesh.prisms.empty();
+CasePatches find_case_patches(const HybridMesh& mesh, const CaseOptions& options, CaseProblems& problems) {
+  CasePatches case_patches;
+  case_patches.facts = facts_of(mesh);
+  case_patches.has_layers = mesh.layers.n_columns() > 0 || !mesh.prisms.empty();
   bool has_farfield = false, has_opening = false;
   int n_symmetry = 0;
   for (const PatchId p : mesh.patches.ids()) {
-    if (site.facts[p].n_faces == 0) continue;
+    if (case_patches.facts[p].n_faces == 0) continue;
     const PatchKind kind = mesh.patches[p].kind;
     has_farfield = has_farfield || kind == PatchKind::farfield;
     has_opening = has_opening || kind == PatchKind::inflow || kind == PatchKind::outflow;
     n_symmetry += kind == PatchKind::symmetry && !is_periodic(mesh, p) ? 1 : 0;
-    if (kind == PatchKind::inflow) site.inflows.push_back(p);
-    if (kind == PatchKind::outflow) site.outflows.push_back(p);
+    if (kind == PatchKind::inflow) case_patches.inflows.push_back(p);
+    if (kind == PatchKind::outflow) case_patches.outflows.push_back(p);
   }
-  site.is_tunnel = has_opening && !has_farfield;
-  find_monitored(mesh, options, site, problems);
-  find_half(options, n_symmetry, site, problems);
-  return site;
+  case_patches.is_tunnel = has_opening && !has_farfield;
+  find_monitored(mesh, options, case_patches, problems);
+  find_half(options, n_symmetry, case_patches, problems);
+  return case_patches;
 }
 
 bool is_periodic(const HybridMesh& mesh, PatchId patch) {
   return std::ranges::any_of(mesh.periodic, [&](const PeriodicSides& sides) { return sides.first == patch || sides.second == patch; });
 }
 
-std::optional<PatchId> back_of_disc(const HybridMesh& mesh, const CaseSite& site, PatchId patch) {
+std::optional<PatchId> back_of_disc(const HybridMesh& mesh, const CasePatches& case_patches, PatchId patch) {
   for (const PatchId back : mesh.patches.ids())
-    if (site.facts[back].n_faces > 0 && mesh.patches[back].name == mesh.patches[patch].name + ".back") return back;
+    if (case_patches.facts[back].n_faces > 0 && mesh.patches[back].name == mesh.patches[patch].name + ".back") return back;
   return std::nullopt;
 }
 
-std::optional<PatchId> front_of_disc(const HybridMesh& mesh, const CaseSite& site, PatchId patch) {
+std::optional<PatchId> front_of_disc(const HybridMesh& mesh, const CasePatches& case_patches, PatchId patch) {
   for (const PatchId front : mesh.patches.ids())
-    if (mesh.patches[front].kind == PatchKind::interface && site.facts[front].n_faces > 0 && mesh.patches[patch].name == mesh.patches[front].name + ".back")
+    if (mesh.patches[front].kind == PatchKind::interface && case_patches.facts[front].n_faces > 0 &&
+        mesh.patches[patch].name == mesh.patches[front].name + ".back")
       return front;
   return std::nullopt;
 }
@@ -249,7 +250,7 @@ void UsedBoundaries::require_used(CaseProblems& problems) const {
   }
 }
 
-double reference_area(const CaseReference& reference, const CaseSite& site) { return site.is_half ? 0.5 * reference.area : reference.area; }
+double reference_area(const CaseReference& reference, const CasePatches& case_patches) { return case_patches.is_half ? 0.5 * reference.area : reference.area; }
 
 double reference_length(const CaseReference& reference, const volmesh::FlowState& flow) {
   return is_automatic(reference.length) ? flow.length : reference.length;

@@ -64,15 +64,15 @@ struct CaseRequest {
 
 /// The worst value of a quality measure, which determines a solver's numerics.
 struct CaseMeasure {
-  double worst = 0.0;          ///< in the measure's unit
-  std::optional<Point> place;  ///< m; location of the worst value, if it misses a limit of its gate
+  double worst = 0.0;             ///< in the measure's unit
+  std::optional<Point> location;  ///< m; location of the worst value, if it misses a limit of its gate
 };
 
 /// Returns the worst value from the last check of the mesh, or from a new check if the last one has not measured it. \p solver name of the solver in the error
 /// \throws Error(bad_argument) if the mesh is not conforming, so that the measure is undefined
 CaseMeasure measured_worst(const HybridMesh& mesh, Measure measure, const CheckReport* known, std::string_view solver, const RunContext& context);
 /// Returns " at (x, y, z)", or nothing.
-std::string at_place(const CaseMeasure& measure);
+std::string at_location(const CaseMeasure& measure);
 
 struct PatchFacts {
   std::size_t n_faces = 0;
@@ -93,7 +93,7 @@ class CaseProblems {
 };
 
 /// The patches of a mesh in the roles that they have in solvers.
-struct CaseSite {
+struct CasePatches {
   Column<PatchId, PatchFacts> facts;
   std::vector<PatchId> monitored;    ///< patches whose forces are computed: those named by `monitor`, else all walls except those of tunnels
   std::vector<PatchId> unmonitored;  ///< walls of a tunnel, which are recognised because they touch an inflow or outflow
@@ -113,14 +113,14 @@ std::optional<HybridMesh> with_kinds(const HybridMesh& mesh, std::vector<CaseKin
 void require_known_kinds(const std::set<std::string>& unknown, const std::vector<CaseKind>& kinds, const std::string& attempted);
 
 /// Returns the patches by their roles. \param mesh is a half model if it has a plane of symmetry
-CaseSite case_site(const HybridMesh& mesh, const CaseOptions& options, CaseProblems& problems);
+CasePatches find_case_patches(const HybridMesh& mesh, const CaseOptions& options, CaseProblems& problems);
 
 /// Returns true if the patch is one of two periodic sides.
 bool is_periodic(const HybridMesh& mesh, PatchId patch);
 /// A disc has two sides: <name>, which is upstream (the front), and <name>.back. These functions return the side opposite to the front, and the side opposite
 /// to the back; nothing if the patch is not that side.
-std::optional<PatchId> back_of_disc(const HybridMesh& mesh, const CaseSite& site, PatchId patch);
-std::optional<PatchId> front_of_disc(const HybridMesh& mesh, const CaseSite& site, PatchId patch);
+std::optional<PatchId> back_of_disc(const HybridMesh& mesh, const CasePatches& case_patches, PatchId patch);
+std::optional<PatchId> front_of_disc(const HybridMesh& mesh, const CasePatches& case_patches, PatchId patch);
 
 /// Conditions by names of patches. Records which conditions are used.
 class UsedBoundaries {
@@ -139,7 +139,7 @@ class UsedBoundaries {
 };
 
 /// Return the values that the solver gets, in m^2 and m.
-double reference_area(const CaseReference& reference, const CaseSite& site);
+double reference_area(const CaseReference& reference, const CasePatches& case_patches);
 double reference_length(const CaseReference& reference, const volmesh::FlowState& flow);
 /// Returns the point with zeros in place of rounding errors.
 Point moment_origin(const CaseReference& reference, const volmesh::FlowState& flow);

@@ -6,7 +6,7 @@
 #include "scripting/lua/script_check.h"
 #include "scripting/lua/verb_tools.h"
 #include "scripting/values/patch_rules.h"
-#include "scripting/values/stages.h"
+#include "scripting/values/stored_stages.h"
 #include "scripting/verbs/farfield_verbs.h"
 #include "scripting/verbs/source_verbs.h"
 #include "scripting/verbs/volume_case.h"

@@ -53,9 +53,9 @@ class Configuration {
         boundaries_(boundaries),
         orthogonality_(orthogonality),
         context_(context),
-        site_(case_site(mesh, common, problems_)),
+        case_patches_(find_case_patches(mesh, common, problems_)),
         names_(io::su2_marker_names(mesh.patches, RunContext())) {
-    is_viscous_ = options.solver == "automatic" ? site_.has_layers : options.solver != "EULER";
+    is_viscous_ = options.solver == "automatic" ? case_patches_.has_layers : options.solver != "EULER";
     solver_ = options.solver != "automatic" ? options.solver : is_viscous_ ? "RANS" : "EULER";
   }
 
@@ -63,12 +63,12 @@ class Configuration {
     sort_patches();
     add_periodic();
     require_su2_flow(flow_, is_viscous_, problems_);
-    if (is_automatic(reference_.area) && !site_.is_tunnel)
+    if (is_automatic(reference_.area) && !case_patches_.is_tunnel)
       problems_.add("the reference area is unknown: give reference_area (of the whole aircraft), or reference = the aircraft or its wing");
     boundaries_.require_used(problems_);
     problems_.require_none("making a configuration of SU2");
     choose_wall_functions();
-    tell();
+    report();
     return head() + physics() + reference_values() + markers() + numerics() + files();
   }
 
@@ -95,7 +95,7 @@ class Configuration {
 
   void sort_patches() {
     for (const PatchId p : mesh_.patches.ids()) {
-      if (site_.facts[p].n_faces == 0 || is_periodic(mesh_, p)) continue;
+      if (case_patches_.facts[p].n_faces == 0 || is_periodic(mesh_, p)) continue;
       const std::string& name = names_[p.index()];
       switch (mesh_.patches[p].kind) {
         case PatchKind::wall: (is_viscous_ ? walls_ : euler_).push_back(name); break;
@@ -107,26 +107,26 @@ class Configuration {
         case PatchKind::interface: add_disc(p, name); break;
       }
     }
-    for (const PatchId p : site_.monitored) monitored_.push_back(names_[p.index()]);
-    for (const PatchId p : site_.unmonitored) unmonitored_.push_back(names_[p.index()]);
+    for (const PatchId p : case_patches_.monitored) monitored_.push_back(names_[p.index()]);
+    for (const PatchId p : case_patches_.unmonitored) unmonitored_.push_back(names_[p.index()]);
   }
 
   double heat(double power) const { return std::pow(1.0 + 0.5 * (volmesh::k_heat_ratio - 1.0) * flow_.mach * flow_.mach, power); }
 
   void add_inflow(PatchId p, const std::string& name) {
     const CaseBoundary given = boundaries_.of(mesh_.patches[p]);
-    const Vec3 along = inward_normal(site_.facts[p]);
-    if (site_.is_tunnel && flow_.mach >= 1.0) {
+    const Vec3 along = inward_normal(case_patches_.facts[p]);
+    if (case_patches_.is_tunnel && flow_.mach >= 1.0) {
       supersonic_inlets_.push_back(fmt::format("{}, {}, {}, {}, {}, {}", name, case_number(flow_.temperature), case_number(flow_.pressure),
                                                case_number(flow_.speed * along.x), case_number(flow_.speed * along.y), case_number(flow_.speed * along.z)));
       return;
     }
     double pressure = given.total_pressure, temperature = given.total_temperature;
-    if (site_.is_tunnel && is_automatic(pressure)) pressure = flow_.pressure * heat(volmesh::k_heat_ratio / (volmesh::k_heat_ratio - 1.0));
-    if (site_.is_tunnel && is_automatic(temperature)) temperature = flow_.temperature * heat(1.0);
+    if (case_patches_.is_tunnel && is_automatic(pressure)) pressure = flow_.pressure * heat(volmesh::k_heat_ratio / (volmesh::k_heat_ratio - 1.0));
+    if (case_patches_.is_tunnel && is_automatic(temperature)) temperature = flow_.temperature * heat(1.0);
     if (is_automatic(pressure) || is_automatic(temperature)) {
       problems_.add("the condition at the inflow \"" + mesh_.patches[p].name + "\" is unknown: give boundaries = { [\"" + mesh_.patches[p].name +
-                    "\"] = { total_pressure = ..., total_temperature = ... } }" + (site_.is_tunnel ? ", or a flow with temperature and pressure" : ""));
+                    "\"] = { total_pressure = ..., total_temperature = ... } }" + (case_patches_.is_tunnel ? ", or a flow with temperature and pressure" : ""));
       return;
     }
     inlets_.push_back(fmt::format("{}, {}, {}, {}, {}, {}", name, case_number(temperature), case_number(pressure), case_number(along.x), case_number(along.y),
@@ -135,48 +135,49 @@ class Configuration {
 
   void add_outflow(PatchId p, const std::string& name) {
     const CaseBoundary given = boundaries_.of(mesh_.patches[p]);
-    if (site_.is_tunnel && flow_.mach >= 1.0 && is_automatic(given.pressure)) {
+    if (case_patches_.is_tunnel && flow_.mach >= 1.0 && is_automatic(given.pressure)) {
       supersonic_outlets_.push_back(name);
       return;
     }
-    const double pressure = site_.is_tunnel && is_automatic(given.pressure) ? flow_.pressure : given.pressure;
+    const double pressure = case_patches_.is_tunnel && is_automatic(given.pressure) ? flow_.pressure : given.pressure;
     if (is_automatic(pressure)) {
       problems_.add("the condition at the outflow \"" + mesh_.patches[p].name + "\" is unknown: give boundaries = { [\"" + mesh_.patches[p].name +
-                    "\"] = { pressure = ... } }" + (site_.is_tunnel ? ", or a flow with temperature and pressure" : ""));
+                    "\"] = { pressure = ... } }" + (case_patches_.is_tunnel ? ", or a flow with temperature and pressure" : ""));
       return;
     }
     outlets_.push_back(name + ", " + case_number(pressure));
   }
 
   void add_disc(PatchId p, const std::string& name) {
-    if (front_of_disc(mesh_, site_, p)) return;  // the back of a disc is handled together with its front
-    const std::optional<PatchId> back = back_of_disc(mesh_, site_, p);
+    if (front_of_disc(mesh_, case_patches_, p)) return;  // the back of a disc is handled together with its front
+    const std::optional<PatchId> back = back_of_disc(mesh_, case_patches_, p);
     if (!back) {
       problems_.add("patch \"" + mesh_.patches[p].name + "\" is of kind interface, but no side of an actuator disc: its boundary condition is unknown");
       return;
     }
     const double warmer = boundaries_.of(mesh_.patches[p]).temperature_jump;
-    if (const auto jump = boundaries_.pressure_jump(mesh_.patches[p], site_.facts[p].size, problems_))
+    if (const auto jump = boundaries_.pressure_jump(mesh_.patches[p], case_patches_.facts[p].size, problems_))
       discs_.push_back(fmt::format("{0}, {1}, {2}, {3}, 0, {2}, {3}, 0", name, names_[back->index()], case_number(*jump), case_number(warmer)));
   }
 
   bool has_area() const { return !is_automatic(reference_.area); }
-  double area() const { return has_area() ? reference_area(reference_, site_) : 1.0; }
+  double area() const { return has_area() ? reference_area(reference_, case_patches_) : 1.0; }
   double length() const { return reference_length(reference_, flow_); }
   Point origin() const { return moment_origin(reference_, flow_); }
 
-  void tell() {
-    if (site_.is_internal)
+  void report() {
+    if (case_patches_.is_internal)
       context_.info(fmt::format("SU2: {}, internal flow from {} to {}: the history has mass flow, pressures and the pressure drop between these markers",
-                                solver_, list(openings(site_.inflows)), list(openings(site_.outflows))));
-    if (!has_area() && !site_.is_internal) context_.warn("SU2: no reference area is given, so force coefficients refer to 1 m^2: give --reference-area");
+                                solver_, list(openings(case_patches_.inflows)), list(openings(case_patches_.outflows))));
+    if (!has_area() && !case_patches_.is_internal)
+      context_.warn("SU2: no reference area is given, so force coefficients refer to 1 m^2: give --reference-area");
     if (!is_viscous_ && !is_automatic(common_.wall_temperature)) context_.warn("SU2: wall_temperature has no effect: the solver is " + solver_);
     if (solver_ != "RANS" && (options_.turbulence != Su2Options{}.turbulence || options_.wall_functions == "yes"))
       context_.warn("SU2: turbulence and wall_functions have no effect: the solver is " + solver_);
-    if (site_.is_internal) return;
+    if (case_patches_.is_internal) return;
     context_.info(fmt::format("SU2: {}, {} walls, reference area {:.6g} m^2{}{}, length {:.6g} m, moments about ({:.6g}, {:.6g}, {:.6g}) m", solver_,
                               walls_.size() + (is_viscous_ ? 0 : euler_.size()), area(),
-                              site_.is_half ? fmt::format(" (half of {:.6g}: half model)", reference_.area) : "",
+                              case_patches_.is_half ? fmt::format(" (half of {:.6g}: half model)", reference_.area) : "",
                               reference_.source.empty() ? "" : " of " + reference_.source, length(), origin().x, origin().y, origin().z));
     if (!unmonitored_.empty()) context_.info("SU2: walls of the tunnel, without forces: " + list(unmonitored_));
   }
@@ -198,7 +199,7 @@ class Configuration {
     text += title("Free stream") + "MACH_NUMBER= " + case_number(flow_.mach) + "\nAOA= " + case_number(common_.alpha * k_degrees) +
             "\nSIDESLIP_ANGLE= " + case_number(common_.beta * k_degrees) + "\n";
     const bool has_state = !is_automatic(flow_.pressure) && !is_automatic(flow_.temperature);
-    if (is_viscous_ && !(site_.is_tunnel && has_state)) {
+    if (is_viscous_ && !(case_patches_.is_tunnel && has_state)) {
       text += "INIT_OPTION= REYNOLDS\nFREESTREAM_TEMPERATURE= " + case_number(flow_.temperature) + "\n";
     } else if (has_state) {
       text += "INIT_OPTION= TD_CONDITIONS\nFREESTREAM_OPTION= TEMPERATURE_FS\nFREESTREAM_PRESSURE= " + case_number(flow_.pressure) +
@@ -212,9 +213,9 @@ class Configuration {
 
   std::string reference_values() const {
     const Point o = origin();
-    const std::string note = !has_area()     ? " (no area is given: coefficients refer to 1 m^2)"
-                             : site_.is_half ? " (half model: half the area of the aircraft)"
-                                             : "";
+    const std::string note = !has_area()             ? " (no area is given: coefficients refer to 1 m^2)"
+                             : case_patches_.is_half ? " (half model: half the area of the aircraft)"
+                                                     : "";
     return title("Reference values" + note) + "REF_AREA= " + case_number(area()) + "\nREF_LENGTH= " + case_number(length()) +
            "\nREF_ORIGIN_MOMENT_X= " + case_number(o.x) + "\nREF_ORIGIN_MOMENT_Y= " + case_number(o.y) + "\nREF_ORIGIN_MOMENT_Z= " + case_number(o.z) +
            "\nREF_DIMENSIONALIZATION= DIMENSIONAL\n";
@@ -243,12 +244,12 @@ class Configuration {
     add("MARKER_PERIODIC", periodic_);
     if (!discs_.empty()) text += "ACTDISK_TYPE= VARIABLES_JUMP\nACTDISK_JUMP= DIFFERENCE\n";
     add("MARKER_ACTDISK", discs_);
-    add("MARKER_PLOTTING", site_.is_internal ? unmonitored_ : monitored_);
+    add("MARKER_PLOTTING", case_patches_.is_internal ? unmonitored_ : monitored_);
     add("MARKER_MONITORING", monitored_);
-    if (site_.is_internal) text += "MARKER_MONITORING= ( NONE )\n";
-    std::vector<std::string> analyzed = openings(site_.inflows);
-    for (const std::string& name : openings(site_.outflows)) analyzed.push_back(name);
-    if (site_.is_tunnel) {
+    if (case_patches_.is_internal) text += "MARKER_MONITORING= ( NONE )\n";
+    std::vector<std::string> analyzed = openings(case_patches_.inflows);
+    for (const std::string& name : openings(case_patches_.outflows)) analyzed.push_back(name);
+    if (case_patches_.is_tunnel) {
       add("MARKER_ANALYZE", analyzed);
       text += "MARKER_ANALYZE_AVERAGE= MASSFLUX\n";
     }
@@ -262,7 +263,7 @@ class Configuration {
     const double cfl = is_automatic(options_.cfl) ? march.cfl : options_.cfl;
     const std::string because =
         fmt::format("% The lowest orthogonality of a control volume (90 degrees: faces are normal to their edges) is {:.4g} degrees{}, {}.\n",
-                    worst * k_degrees, at_place(orthogonality_),
+                    worst * k_degrees, at_location(orthogonality_),
                     worst >= limits.target ? fmt::format("above {:g}: usual CFL numbers", limits.target * k_degrees)
                                            : fmt::format("below {:g}: lower CFL numbers, and more iterations of the linear solver",
                                                          (worst >= limits.hard ? limits.target : limits.hard) * k_degrees));
@@ -289,7 +290,7 @@ class Configuration {
   }
 
   /// Returns the output of the pressure drop, which SU2 provides if there are at least two markers.
-  std::string drop() const { return site_.inflows.size() + site_.outflows.size() > 1 ? ", SURFACE_PRESSURE_DROP" : ""; }
+  std::string drop() const { return case_patches_.inflows.size() + case_patches_.outflows.size() > 1 ? ", SURFACE_PRESSURE_DROP" : ""; }
 
   std::string files() const {
     const bool is_cgns = options_.mesh.ends_with(".cgns");
@@ -297,9 +298,9 @@ class Configuration {
            "\nTABULAR_FORMAT= CSV\nCONV_FILENAME= history\nRESTART_FILENAME= restart_flow\nSOLUTION_FILENAME= restart_flow\nVOLUME_FILENAME= "
            "flow\nSURFACE_FILENAME= "
            "surface_flow\nOUTPUT_FILES= ( RESTART, PARAVIEW, SURFACE_PARAVIEW )\n" +
-           (site_.is_internal ? "SCREEN_OUTPUT= ( INNER_ITER, RMS_DENSITY, SURFACE_MASSFLOW, SURFACE_TOTAL_PRESSURE" + drop() + " )\n"
-                              : "SCREEN_OUTPUT= ( INNER_ITER, RMS_DENSITY, LIFT, DRAG )\n") +
-           "HISTORY_OUTPUT= ( ITER, RMS_RES" + (site_.is_internal ? "" : ", AERO_COEFF") + (site_.is_tunnel ? ", FLOW_COEFF" : "") + " )\n";
+           (case_patches_.is_internal ? "SCREEN_OUTPUT= ( INNER_ITER, RMS_DENSITY, SURFACE_MASSFLOW, SURFACE_TOTAL_PRESSURE" + drop() + " )\n"
+                                      : "SCREEN_OUTPUT= ( INNER_ITER, RMS_DENSITY, LIFT, DRAG )\n") +
+           "HISTORY_OUTPUT= ( ITER, RMS_RES" + (case_patches_.is_internal ? "" : ", AERO_COEFF") + (case_patches_.is_tunnel ? ", FLOW_COEFF" : "") + " )\n";
   }
 
   const HybridMesh& mesh_;
@@ -311,7 +312,7 @@ class Configuration {
   CaseMeasure orthogonality_;
   const RunContext& context_;
   CaseProblems problems_;
-  CaseSite site_;
+  CasePatches case_patches_;
   std::vector<std::string> names_;  ///< names of markers, by patch
   std::string solver_;
   bool is_viscous_ = false;

@@ -31,7 +31,7 @@ struct Su2Options {
 /// \throws Error(bad_argument) with all data that are neither in the mesh nor given
 std::string su2_config(const HybridMesh& mesh, const Su2Options& options, const CaseOptions& common, const volmesh::FlowState& flow,
                        const CaseReference& reference, const CaseBoundaries& boundaries, const RunContext& context,
-                       const CaseMeasure& orthogonality = {.worst = 90.0 * k_degree, .place = {}});
+                       const CaseMeasure& orthogonality = {.worst = 90.0 * k_degree, .location = {}});
 
 /// Checks the flow data that a configuration needs, independent of the mesh. \param is_viscous unknown before meshing; the temperature is then not required
 void require_su2_flow(const volmesh::FlowState& flow, std::optional<bool> is_viscous, CaseProblems& problems);

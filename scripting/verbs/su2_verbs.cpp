@@ -57,8 +57,8 @@ ScriptValue write_su2_config(const ScriptCall& call) {
   if (file) note_output(call, output_path(call, *file));
   if (flow && call.session.check && !reader.has_problems()) {  // in a run the mesh provides the other data, and all problems are reported together
     CaseProblems needed;
-    const bool asks_viscous = options.solver == "RANS" || options.solver == "NAVIER_STOKES";
-    require_su2_flow(*flow, asks_viscous ? std::optional<bool>(true) : std::nullopt, needed);
+    const bool requests_viscous = options.solver == "RANS" || options.solver == "NAVIER_STOKES";
+    require_su2_flow(*flow, requests_viscous ? std::optional<bool>(true) : std::nullopt, needed);
     for (const std::string& problem : needed.all()) reader.add_problem(problem);
   }
   reader.finish();

@@ -33,11 +33,11 @@ void require_apart(const TriMesh& mesh, const RunContext& context) {
                  .attempted = "joining surfaces",
                  .problem = std::to_string(found.total) + " pairs of triangles cross",
                  .hint = "union{ ... } unites surfaces that intersect"};
-  info.n_places = found.total;
+  info.n_locations = found.total;
   for (std::size_t i = 0; i < std::min(k_named_pairs, found.pairs.size()); ++i) {
     const TriangleId a(found.pairs[i][0]), b(found.pairs[i][1]);
     const auto p = corners(mesh, a);
-    info.places.push_back(
+    info.locations.push_back(
         {(p[0] + p[1] + p[2]) / 3.0, "\"" + mesh.patches[mesh.triangle_patch[a]].name + "\" and \"" + mesh.patches[mesh.triangle_patch[b]].name + "\""});
   }
   throw Error(std::move(info));
@@ -62,7 +62,7 @@ SurfaceValue moved_surface(const SurfaceValue& surface, const Transform& motion)
   SurfaceValue moved = surface;
   moved.parts = parts_of(surface);
   if (surface.model_wall) moved.model_wall = std::make_shared<const surfmesh::ModelWall>(*surface.model_wall, motion);
-  if (moved.mesh_report) move_places(motion, *moved.mesh_report);
+  if (moved.mesh_report) move_locations(motion, *moved.mesh_report);
   // The motion starts from the part's own frame each time, so that two motions have the same rounding as one.
   for (volmesh::PlacedPart& part : moved.parts) {
     part.placement = motion * part.placement;

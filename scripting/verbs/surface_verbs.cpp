@@ -8,7 +8,7 @@
 #include "scripting/values/geometry_tools.h"
 #include "scripting/values/model_surface.h"
 #include "scripting/values/patch_rules.h"
-#include "scripting/values/periodic_sides.h"
+#include "scripting/values/periodic_pairs.h"
 #include "scripting/values/remeshed_surface.h"
 #include "scripting/verbs/source_verbs.h"
 #include "volmesh/envelope/patch_layers.h"
@@ -105,26 +105,26 @@ constexpr std::string_view k_remesh_usage =
     "remesh{ wall, curvature_angle = 12*deg, max_edge = 0.4, growth = 1.2, patches = { [\"Body*\"] = { max_edge = 0.15 } } }";
 
 /// The request of a table to remesh.
-struct RemeshAsked {
+struct RemeshRequest {
   RemeshRecipe recipe;
   SurfaceRules rules;
   std::function<double(const Point&)> size;
 };
 
-RemeshAsked read_remesh(TableReader& reader, const ScriptCall& call) {
-  RemeshAsked asked;
-  reader.read_options(with_edge_tables(sterna::options_of(asked.recipe.options)));
-  asked.rules = read_rules(reader);
-  asked.recipe.patches = asked.rules.sizes;
-  asked.recipe.sources = read_sources(reader, call);
-  asked.size = read_size_function(reader);
-  apply_overrides(call, sterna::options_of(asked.recipe.options));
-  return asked;
+RemeshRequest read_remesh(TableReader& reader, const ScriptCall& call) {
+  RemeshRequest requested;
+  reader.read_options(with_edge_tables(sterna::options_of(requested.recipe.options)));
+  requested.rules = read_rules(reader);
+  requested.recipe.patches = requested.rules.sizes;
+  requested.recipe.sources = read_sources(reader, call);
+  requested.size = read_size_function(reader);
+  apply_overrides(call, sterna::options_of(requested.recipe.options));
+  return requested;
 }
 
-SurfaceValue remesh_as_asked(const SurfaceValue& wall, const RemeshAsked& asked, const RunContext& context, const Reuse& reuse) {
-  SurfaceValue made = remeshed(wall, asked.recipe, asked.size, context, reuse);
-  add_layer_rules(asked.rules.layers, made);
+SurfaceValue remesh_as_requested(const SurfaceValue& wall, const RemeshRequest& requested, const RunContext& context, const Reuse& reuse) {
+  SurfaceValue made = remeshed(wall, requested.recipe, requested.size, context, reuse);
+  add_layer_rules(requested.rules.layers, made);
   return made;
 }
 
@@ -137,9 +137,9 @@ ScriptValue make_remesh(const ScriptCall& call) {
   if (wall == nullptr)
     reader.add_problem("takes one surface (from read_surface ...): " + std::string(k_remesh_usage) +
                        "; a model's faces get triangles by surface_mesh{ model }");
-  const RemeshAsked asked = read_remesh(reader, call);
+  const RemeshRequest requested = read_remesh(reader, call);
   reader.finish();
-  return std::make_shared<const SurfaceValue>(remesh_as_asked(**wall, asked, call.session.context.part("remesh", 0.0, 1.0), call.session.reuse()));
+  return std::make_shared<const SurfaceValue>(remesh_as_requested(**wall, requested, call.session.context.part("remesh", 0.0, 1.0), call.session.reuse()));
 }
 
 std::string remesh_help() {
@@ -164,8 +164,8 @@ constexpr std::array<ScriptVerb, 2> k_surface_verbs = {{
 RemeshEntry read_remesh_entry(TableReader& reader, const ScriptCall& call) {
   const ScriptValue* value = reader.field("remesh");
   if (value == nullptr) return {};
-  if (const auto* is_asked = std::get_if<bool>(value)) {
-    if (!*is_asked) return {};
+  if (const auto* is_requested = std::get_if<bool>(value)) {
+    if (!*is_requested) return {};
     return [recipe = RemeshRecipe{}](const SurfaceValue& wall, const RunContext& context, const Reuse& reuse) {
       return remeshed(wall, recipe, {}, context, reuse);
     };
@@ -177,10 +177,10 @@ RemeshEntry read_remesh_entry(TableReader& reader, const ScriptCall& call) {
   }
   const ScriptTable own_table = **table;
   TableReader own(own_table, Attempt(std::string(call.attempted()) + ", remesh", nullptr, false));
-  RemeshAsked asked = read_remesh(own, call);
+  RemeshRequest requested = read_remesh(own, call);
   own.finish();
-  return [asked = std::move(asked)](const SurfaceValue& wall, const RunContext& context, const Reuse& reuse) {
-    return remesh_as_asked(wall, asked, context, reuse);
+  return [requested = std::move(requested)](const SurfaceValue& wall, const RunContext& context, const Reuse& reuse) {
+    return remesh_as_requested(wall, requested, context, reuse);
   };
 }
 

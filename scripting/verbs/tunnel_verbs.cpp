@@ -205,7 +205,7 @@ ScriptValue make_test_section_verb(const ScriptCall& call) {
   ModelValue tunnel{.without_description = "it is a test section"};
   const bool is_given = !items.empty();
   refuse_items_beyond(reader, 1);
-  if (is_given && is_stand_in(call, items.front())) finish_checks(call);  // the faces of a placeholder are unknown
+  if (is_given && is_placeholder(call, items.front())) finish_checks(call);  // the faces of a placeholder are unknown
   if (is_given) {
     if (const ModelHandle solid = model_of(items.front(), call)) take_solid(solid, reader, tunnel);
     else reader.add_problem("entry 1: expected the model of a closed solid, not " + std::string(type_text(items.front())));

@@ -4,7 +4,7 @@
 #include "scripting/values/disc_verbs.h"
 #include "scripting/values/layer_options.h"
 #include "scripting/values/patch_rules.h"
-#include "scripting/values/periodic_sides.h"
+#include "scripting/values/periodic_pairs.h"
 #include "scripting/values/wake_verbs.h"
 #include "scripting/verbs/source_verbs.h"
 

@@ -11,14 +11,14 @@
 #include "geom/base/number_text.h"
 #include "geom/draw/choices.h"
 #include "geom/mesh/cut.h"
-#include "geom/mesh/cut_places.h"
+#include "geom/mesh/cut_locations.h"
 #include "scripting/report/page_surface.h"
 #include "scripting/report/report_gates.h"
 #include "scripting/values/aircraft_model.h"
 #include "scripting/values/inspect_surface.h"
 #include "scripting/values/models.h"
 #include "scripting/values/patch_rules.h"
-#include "scripting/values/stages.h"
+#include "scripting/values/stored_stages.h"
 #include "scripting/values/summary.h"
 #include "scripting/verbs/component_verbs.h"
 #include "surfmesh/model/model_facets.h"
@@ -62,21 +62,21 @@ SurfaceField curvature_field(std::vector<double> values) {
           std::move(values)};
 }
 
-SceneJson place_of(const Point& p) { return SceneJson::array({p.x, p.y, p.z}); }
+SceneJson location_of(const Point& p) { return SceneJson::array({p.x, p.y, p.z}); }
 
 /// Returns the data of a wing section: leading edge, chord, angles, airfoil. If the section is given as a loop, its chord is that of the loop.
 SceneJson section_json(const WingSection& section, const Transform& map, std::size_t number) {
   constexpr double k_degrees = 180.0 / std::numbers::pi;
   SceneJson entry = {{"name", section.name.empty() ? "section " + std::to_string(number) : section.name}};
   if (section.loop.empty()) {
-    entry["at"] = place_of(map.point(section.leading_edge));
+    entry["at"] = location_of(map.point(section.leading_edge));
     entry["chord"] = section.chord;
     entry["twist"] = section.twist * k_degrees;
     entry["airfoil"] = section.airfoil;
     return entry;
   }
   const Point leading = map.point(section.loop[section.loop.size() / 2]);
-  entry["at"] = place_of(leading);
+  entry["at"] = location_of(leading);
   entry["chord"] = distance(leading, map.point(section.loop.front() + 0.5 * (section.loop.back() - section.loop.front())));
   return entry;
 }
@@ -96,7 +96,7 @@ SceneJson parts_json(const Aircraft& aircraft) {
     for (std::size_t i = 0; i < body.frames.size(); ++i) {
       const BodyFrame& frame = body.frames[i];
       list.push_back({{"name", frame.name.empty() ? "frame " + std::to_string(i + 1) : frame.name},
-                      {"at", place_of(map.point(frame.center))},
+                      {"at", location_of(map.point(frame.center))},
                       {"width", frame.width},
                       {"height", frame.height}});
     }
@@ -308,8 +308,8 @@ std::string cut_bytes(const ScriptValue& value, const std::string& plane_text, s
                  .hint = "x=1.2, or point=0,0,0 normal=0,1,0"});
   const MeshCut cut = cut_mesh((*mesh)->mesh, *plane, context);
   PageArrays arrays;
-  const CutPlace place{.name = plane_text, .plane = *plane, .focus = plane->origin, .radius = 1.0};
-  return block_of(SceneJson::parse(page_cut_json(place, cut, max_polygons, arrays)), arrays);
+  const CutLocation location{.name = plane_text, .plane = *plane, .focus = plane->origin, .radius = 1.0};
+  return block_of(SceneJson::parse(page_cut_json(location, cut, max_polygons, arrays)), arrays);
 }
 
 }  // namespace sterna::scripting

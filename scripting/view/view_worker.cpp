@@ -70,11 +70,11 @@ std::pair<std::string, int> file_and_line(std::string_view text) {
 WorkerJson problem_json(const Error& error) {
   const ErrorInfo& info = error.info();
   // In Lua's own messages the location is in the problem; in messages of verbs it is before the attempted action.
-  auto place = file_and_line(info.attempted);
-  if (place.second == 0) place = file_and_line(info.problem);
-  WorkerJson places = WorkerJson::array();
-  for (const ErrorPlace& p : info.places) places.push_back({{"at", {p.position.x, p.position.y, p.position.z}}, {"what", p.what}});
-  return {{"text", error.what()}, {"code", to_string(error.code())}, {"file", place.first}, {"line", place.second}, {"places", std::move(places)}};
+  auto location = file_and_line(info.attempted);
+  if (location.second == 0) location = file_and_line(info.problem);
+  WorkerJson locations = WorkerJson::array();
+  for (const ErrorLocation& p : info.locations) locations.push_back({{"at", {p.position.x, p.position.y, p.position.z}}, {"what", p.what}});
+  return {{"text", error.what()}, {"code", to_string(error.code())}, {"file", location.first}, {"line", location.second}, {"places", std::move(locations)}};
 }
 
 WorkerJson value_json(const ScriptValue& value, double unit) {
@@ -109,7 +109,7 @@ class Worker {
         const WorkerJson job = WorkerJson::parse(text.substr(0, end));
         const std::string what = job.value("do", "");
         if (what == "run") run(job);
-        else if (what == "scene" || what == "cut" || what == "inspect") send_asked(job, what);
+        else if (what == "scene" || what == "cut" || what == "inspect") send_requested(job, what);
         context_.run.check_stop();
       }
       if (!read_some(STDIN_FILENO, text)) return k_exit_success;
@@ -125,8 +125,8 @@ class Worker {
     arguments_.clear();
     const WorkerJson arguments = job.value("arguments", WorkerJson::object());
     for (const auto& [name, text] : arguments.items()) arguments_.emplace_back(name, text.get<std::string>());
-    wanted_ = job.value("wanted", std::vector<std::string>{});
-    unwanted_ = job.value("unwanted", std::vector<std::string>{});
+    to_show_ = job.value("wanted", std::vector<std::string>{});
+    to_hide_ = job.value("unwanted", std::vector<std::string>{});
     kept_ = job.value("kept", std::vector<std::string>{});
     const std::string mode = job.value("mode", "geometry");
     if (mode == "mesh") {
@@ -211,7 +211,7 @@ class Worker {
   }
 
   void note_made(const ScriptCall& call, const ScriptValue& value) {
-    if (!is_drawable(value) || is_stand_in(call, value)) return;
+    if (!is_drawable(value) || is_placeholder(call, value)) return;
     // After an error the script continues with placeholders; objects made from them must not be shown.
     if (call.session.check && !call.session.check->problems.empty()) return;
     if (std::ranges::any_of(objects_, [&](const MadeObject& known) { return is_same_object(known.value, value); })) return;
@@ -304,7 +304,7 @@ class Worker {
     const std::vector<bool> is_shown = shown();
     const auto contains = [](const std::vector<std::string>& list, const std::string& name) { return std::ranges::find(list, name) != list.end(); };
     for (std::size_t i = 0; i < objects_.size(); ++i)
-      if (!objects_[i].is_sent && (contains(wanted_, names[i]) || (is_shown[i] && !contains(unwanted_, names[i])))) send_scene(i, is_quick);
+      if (!objects_[i].is_sent && (contains(to_show_, names[i]) || (is_shown[i] && !contains(to_hide_, names[i])))) send_scene(i, is_quick);
     answers_.send({{"is", "ended"},
                    {"run", number_},
                    {"mode", mode},
@@ -314,19 +314,19 @@ class Worker {
   }
 
   /// Sends an object's scene, a cut through it, or inspection results, for the current run.
-  void send_asked(const WorkerJson& job, const std::string& what) {
+  void send_requested(const WorkerJson& job, const std::string& what) {
     const auto id = job.value("id", std::size_t{0});
-    const auto ask = job.value("ask", 0);
+    const auto request_id = job.value("ask", 0);
     if (job.value("run", -1) != number_ || id >= objects_.size())
-      return answers_.send({{"is", "failed"}, {"run", job.value("run", -1)}, {"id", id}, {"ask", ask}, {"text", "the run of this object has ended"}});
+      return answers_.send({{"is", "failed"}, {"run", job.value("run", -1)}, {"id", id}, {"ask", request_id}, {"text", "the run of this object has ended"}});
     if (what == "scene") return send_scene(id, false);
     try {
       const ScriptValue& value = objects_[id].value;
       const std::string bytes = what == "inspect" ? inspection_json(value, *run_) : cut_bytes(value, job.value("plane", ""), k_most_cut_polygons, *run_);
-      answers_.send({{"is", "asked"}, {"run", number_}, {"id", id}, {"ask", ask}}, bytes);
+      answers_.send({{"is", "asked"}, {"run", number_}, {"id", id}, {"ask", request_id}}, bytes);
     } catch (const Error& error) {
       if (error.code() == ErrorCode::cancelled || error.code() == ErrorCode::write_failed) throw;
-      answers_.send({{"is", "failed"}, {"run", number_}, {"id", id}, {"ask", ask}, {"text", error.what()}});
+      answers_.send({{"is", "failed"}, {"run", number_}, {"id", id}, {"ask", request_id}, {"text", error.what()}});
     }
   }
 
@@ -340,7 +340,7 @@ class Worker {
   WorkerClock::time_point start_;
   TimeLeft left_;
   OptionOverrides arguments_;
-  std::vector<std::string> wanted_, unwanted_;  ///< keys of objects that the user has chosen to show and to hide
+  std::vector<std::string> to_show_, to_hide_;  ///< keys of objects that the user has chosen to show and to hide
   std::vector<std::string> kept_;               ///< keys of objects that were shown before without the user's choice
   std::optional<RunContext> run_;
   std::vector<MadeObject> objects_;

@@ -33,7 +33,7 @@ using namespace std::chrono_literals;
 
 constexpr auto k_look_interval = 60ms;      ///< between checks of the files
 constexpr auto k_page_patience = 20s;       ///< if there is no news, an answer without news is given after this time
-constexpr auto k_ask_patience = 60s;        ///< waiting time of the page for a cut or an inspection
+constexpr auto k_answer_timeout = 60s;      ///< waiting time of the page for a cut or an inspection
 constexpr auto k_sketch_patience = 1500ms;  ///< time in which a sketch may finish before a newer one replaces it
 constexpr auto k_quick_sketch = 300ms;      ///< sketches that take longer than this show their progress
 constexpr auto k_end_patience = 3s;         ///< time after a stop request at which a worker is killed
@@ -65,12 +65,12 @@ struct State {
   BenchClock::time_point started{};
   std::vector<ShownObject> objects;
   std::map<std::string, std::string> values;  ///< arguments that differ from the script
-  std::vector<std::string> wanted, unwanted;  ///< keys of objects that the user has chosen to show and to hide
+  std::vector<std::string> to_show, to_hide;  ///< keys of objects that the user has chosen to show and to hide
   std::deque<BenchJson> lines;                ///< in the log
   std::uint64_t n_lines = 0;
-  std::map<int, std::shared_ptr<const std::string>> asked;  ///< answers by request number
+  std::map<int, std::shared_ptr<const std::string>> answered;  ///< answers by request number
   std::map<int, std::string> refused;
-  int n_asked = 0;
+  int n_requests = 0;
 };
 
 /// A worker process with the thread that reads its answers.
@@ -104,10 +104,10 @@ class Workbench::Parts {
   void follow(const std::stop_token& stop) {
     const std::stop_callback wake(stop, [this] { changed_.notify_all(); });
     WatchedFiles files(settings_.script, settings_.input);
-    ask_for(settings_.is_made_script ? "mesh" : "geometry");
+    request_run(settings_.is_made_script ? "mesh" : "geometry");
     while (!stop.stop_requested()) {
       if (is_mesh_written_.exchange(false)) files.accept_others();
-      if (files.have_changed()) ask_for(settings_.is_made_script ? "mesh" : "geometry");
+      if (files.have_changed()) request_run(settings_.is_made_script ? "mesh" : "geometry");
       {
         std::unique_lock lock(mutex_);
         take_step();
@@ -137,11 +137,11 @@ class Workbench::Parts {
       const BenchJson body = BenchJson::parse(request.body.empty() ? "{}" : request.body);
       if (!body.is_object()) return refusal("expected an object", 400);
       if (request.name == "values") return set_values(body);
-      if (request.name == "run") return run_asked(body);
-      if (request.name == "stop") return stop_asked();
-      if (request.name == "show") return show_asked(body);
-      if (request.name == "cut") return asked_of_object("cut", body, "application/octet-stream");
-      if (request.name == "inspect") return asked_of_object("inspect", body, "application/json");
+      if (request.name == "run") return answer_run(body);
+      if (request.name == "stop") return answer_stop();
+      if (request.name == "show") return answer_show(body);
+      if (request.name == "cut") return answer_of_object("cut", body, "application/octet-stream");
+      if (request.name == "inspect") return answer_of_object("inspect", body, "application/json");
       if (request.name == "save") return save_values();
       return refusal("there is no such page", 404);
     } catch (const BenchJson::exception& error) {
@@ -229,64 +229,64 @@ class Workbench::Parts {
         else state_.values[name] = text.get<std::string>();
       }
     }
-    if (!settings_.is_made_script) ask_for(is_dragging ? "sketch" : "geometry");
-    else if (!is_dragging) ask_for("mesh");
+    if (!settings_.is_made_script) request_run(is_dragging ? "sketch" : "geometry");
+    else if (!is_dragging) request_run("mesh");
     return json_answer({{"ok", true}});
   }
 
-  PageAnswer run_asked(const BenchJson& body) {
+  PageAnswer answer_run(const BenchJson& body) {
     const std::string mode = body.value("mode", "geometry");
     if (mode != "geometry" && mode != "mesh") return refusal("there is no mode " + mode, 400);
-    ask_for(mode);
+    request_run(mode);
     return json_answer({{"ok", true}});
   }
 
-  PageAnswer stop_asked() {
+  PageAnswer answer_stop() {
     const std::lock_guard lock(mutex_);
-    asked_mode_.clear();
+    requested_mode_.clear();
     if (worker_ && worker_->is_busy) {
       retire();
       state_.status = "stopped";
       state_.left = nullptr;
-      tell_change();
+      report_change();
     }
     return json_answer({{"ok", true}});
   }
 
-  PageAnswer show_asked(const BenchJson& body) {
+  PageAnswer answer_show(const BenchJson& body) {
     const std::string key = body.value("key", "");
     const bool is_shown = body.value("is_shown", true);
     const std::lock_guard lock(mutex_);
     const auto found = std::ranges::find_if(state_.objects, [&](const ShownObject& object) { return object.key() == key; });
     if (found == state_.objects.end()) return refusal("there is no object " + key, 404);
-    std::erase(state_.wanted, key);
-    std::erase(state_.unwanted, key);
-    (is_shown ? state_.wanted : state_.unwanted).push_back(key);
+    std::erase(state_.to_show, key);
+    std::erase(state_.to_hide, key);
+    (is_shown ? state_.to_show : state_.to_hide).push_back(key);
     const bool is_missing = !found->bytes || found->scene_run < found->run;
-    if (is_shown && is_missing) asked_scenes_.push_back(key);
+    if (is_shown && is_missing) requested_scenes_.push_back(key);
     is_step_due_ = true;
     changed_.notify_all();
     return json_answer({{"ok", true}});
   }
 
   /// Requests a cut through an object, or an inspection, from the worker, and waits for the result.
-  PageAnswer asked_of_object(const char* what, const BenchJson& body, std::string_view type) {
+  PageAnswer answer_of_object(const char* what, const BenchJson& body, std::string_view type) {
     const std::string key = body.value("key", "");
     std::unique_lock lock(mutex_);
     const auto found = std::ranges::find_if(state_.objects, [&](const ShownObject& object) { return object.key() == key; });
     if (found == state_.objects.end()) return refusal("there is no object " + key, 404);
     if (!worker_ || worker_->is_busy || worker_->is_gone || found->run != held_run_)
       return refusal(std::string(std::string_view(what) == "cut" ? "the mesh" : "the surface") + " is not available: mesh again");
-    const int ask = ++state_.n_asked;
-    send_job({{"do", what}, {"run", found->run}, {"id", found->id}, {"plane", body.value("plane", "")}, {"ask", ask}});
-    const auto is_there = [&] { return is_over_ || state_.asked.contains(ask) || state_.refused.contains(ask); };
-    changed_.wait_for(lock, k_ask_patience, is_there);
-    if (const auto answer = state_.asked.find(ask); answer != state_.asked.end()) {
+    const int request_id = ++state_.n_requests;
+    send_job({{"do", what}, {"run", found->run}, {"id", found->id}, {"plane", body.value("plane", "")}, {"ask", request_id}});
+    const auto is_there = [&] { return is_over_ || state_.answered.contains(request_id) || state_.refused.contains(request_id); };
+    changed_.wait_for(lock, k_answer_timeout, is_there);
+    if (const auto answer = state_.answered.find(request_id); answer != state_.answered.end()) {
       const PageAnswer result{.type = type, .body = answer->second};
-      state_.asked.erase(answer);
+      state_.answered.erase(answer);
       return result;
     }
-    const auto refused = state_.refused.find(ask);
+    const auto refused = state_.refused.find(request_id);
     return refusal(refused == state_.refused.end() ? "the worker does not respond in time" : refused->second);
   }
 
@@ -306,16 +306,16 @@ class Workbench::Parts {
 
   // ---- Runs
 
-  void ask_for(const std::string& mode) {
+  void request_run(const std::string& mode) {
     const std::lock_guard lock(mutex_);
     // The new request replaces a pending one and covers it. A pending mesh stays, because no other run makes it.
-    if (asked_mode_ != "mesh") asked_mode_ = mode;
+    if (requested_mode_ != "mesh") requested_mode_ = mode;
     is_step_due_ = true;
     changed_.notify_all();
   }
 
   /// \pre the lock is held
-  void tell_change() {
+  void report_change() {
     ++state_.version;
     changed_.notify_all();
   }
@@ -324,7 +324,7 @@ class Workbench::Parts {
   void take_step() {
     look_at_retired();
     if (worker_ && worker_->is_gone) take_lost_worker();
-    if (!asked_mode_.empty()) {
+    if (!requested_mode_.empty()) {
       const bool is_sketching = worker_ && worker_->is_busy && worker_->mode == "sketch" && BenchClock::now() - worker_->since < k_sketch_patience;
       if (is_sketching) return;  // wait, because the sketch will finish soon, and the next one follows
       if (worker_ && worker_->is_busy) retire();
@@ -332,14 +332,14 @@ class Workbench::Parts {
       if (worker_) begin_run();
     }
     if (worker_ && !worker_->is_busy)
-      for (const std::string& key : std::exchange(asked_scenes_, {}))
+      for (const std::string& key : std::exchange(requested_scenes_, {}))
         for (const ShownObject& object : state_.objects)
           if (object.key() == key && object.run == held_run_) send_job({{"do", "scene"}, {"run", object.run}, {"id", object.id}});
   }
 
   void begin_run() {
     state_.run += 1;
-    state_.mode = std::exchange(asked_mode_, {});
+    state_.mode = std::exchange(requested_mode_, {});
     state_.status = "running";
     state_.stage.clear();
     state_.share = 0.0;
@@ -356,10 +356,10 @@ class Workbench::Parts {
               {"run", state_.run},
               {"mode", state_.mode},
               {"arguments", state_.values},
-              {"wanted", state_.wanted},
-              {"unwanted", state_.unwanted},
+              {"wanted", state_.to_show},
+              {"unwanted", state_.to_hide},
               {"kept", kept}});
-    tell_change();
+    report_change();
   }
 
   void start_worker() {
@@ -377,7 +377,7 @@ class Workbench::Parts {
       worker_ = std::move(fresh);
     } catch (const Error& error) {
       fail(error.what());
-      asked_mode_.clear();
+      requested_mode_.clear();
     }
   }
 
@@ -426,7 +426,7 @@ class Workbench::Parts {
   void fail(const std::string& text) {
     state_.status = "failed";
     state_.problems = BenchJson::array({{{"text", text}, {"code", "internal"}, {"file", ""}, {"line", 0}, {"places", BenchJson::array()}}});
-    tell_change();
+    report_change();
   }
 
   void send_job(const BenchJson& job) {
@@ -505,13 +505,13 @@ class Workbench::Parts {
     } else if (is == "parameters") note_parameters(line["list"], line.value("complete", false));
     else if (is == "objects") note_objects(line);
     else if (is == "scene") note_scene(line, std::move(bytes));
-    else if (is == "asked") state_.asked[line.value("ask", 0)] = std::move(bytes);
+    else if (is == "asked") state_.answered[line.value("ask", 0)] = std::move(bytes);
     else if (is == "failed") note_failure(line);
     else if (is == "ended") note_end(worker, line);
     // A sketch is reported once, when it is complete. While a slider moves, the page has no time for intermediate steps.
     const bool is_step_of_sketch =
         is != "ended" && is != "asked" && worker.mode == "sketch" && worker.is_busy && BenchClock::now() - worker.since < k_quick_sketch;
-    if (!is_step_of_sketch) tell_change();
+    if (!is_step_of_sketch) report_change();
   }
 
   void note_line(const BenchJson& line) {
@@ -526,7 +526,7 @@ class Workbench::Parts {
     if (!is_complete) return;  // a module may declare more
     const auto n_dropped = std::erase_if(
         state_.values, [&](const auto& entry) { return std::ranges::none_of(list, [&](const BenchJson& p) { return p.value("name", "") == entry.first; }); });
-    if (n_dropped > 0 && asked_mode_.empty()) asked_mode_ = state_.mode;
+    if (n_dropped > 0 && requested_mode_.empty()) requested_mode_ = state_.mode;
   }
 
   void note_objects(const BenchJson& line) {
@@ -556,8 +556,8 @@ class Workbench::Parts {
   }
 
   void note_failure(const BenchJson& line) {
-    if (const int ask = line.value("ask", 0); ask > 0) {
-      state_.refused[ask] = line.value("text", "");
+    if (const int request_id = line.value("ask", 0); request_id > 0) {
+      state_.refused[request_id] = line.value("text", "");
       return;
     }
     for (ShownObject& object : state_.objects)
@@ -596,8 +596,8 @@ class Workbench::Parts {
   std::mutex mutex_;
   std::condition_variable changed_;
   State state_;
-  std::string asked_mode_;                 ///< next requested run; empty: none
-  std::vector<std::string> asked_scenes_;  ///< keys
+  std::string requested_mode_;                 ///< next requested run; empty: none
+  std::vector<std::string> requested_scenes_;  ///< keys
   bool is_step_due_ = false, is_over_ = false;
   std::atomic<bool> is_mesh_written_ = false;
   int held_run_ = 0;  ///< run whose objects the worker holds

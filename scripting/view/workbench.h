@@ -19,7 +19,7 @@ struct WorkbenchSettings {
   OptionOverrides arguments;       ///< initial NAME=VALUE
   std::vector<std::string> words;  ///< command line of a worker after the program's name
   std::string_view page;           ///< HTML
-  std::string cases;               ///< JSON list of the cases of a finished series (series_cases.h); empty if the input is no series
+  std::string cases;               ///< JSON list of the cases of a finished series (finished_series.h); empty if the input is no series
   std::vector<std::filesystem::path> pictures;
 };
 

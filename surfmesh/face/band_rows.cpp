@@ -42,7 +42,7 @@ constexpr int k_max_take_backs = 12;
 /// Rad: two smallest angles that differ by less than this are considered equal, so that diagonals alternate.
 constexpr double k_same_angle = 0.01;
 
-struct Place {
+struct RowLocation {
   Uv uv;
   Point point;
   Vec3 normal;           ///< unit normal, in the direction of du x dv
@@ -50,7 +50,7 @@ struct Place {
 };
 
 struct RowColumn {
-  std::vector<Place> rows;             ///< vertices of the column by row; rows[0] lies on the border
+  std::vector<RowLocation> rows;       ///< vertices of the column by row; rows[0] lies on the border
   double spacing = 0.0;                ///< m, mean length of the two edges along the border
   double at_top = 0.0;                 ///< m, mean edge length in the last row, not more than `spacing`
   Vec3 direction;                      ///< unit direction of the next step
@@ -64,7 +64,7 @@ struct RowColumn {
 };
 
 struct Run {
-  const BandRun* wish = nullptr;
+  const BandRun* target = nullptr;
   std::vector<RowColumn> columns;
   double length = 0.0;
   std::array<double, 2> lean{};  ///< rad: inclination of the border columns at the start and the end of the run, in the growing row
@@ -103,7 +103,7 @@ std::vector<bool> sides_of(const FaceBorder& border) {
   return is_left;
 }
 
-Place place_of(const Laying& laying, std::size_t loop, std::size_t i) {
+RowLocation location_of(const Laying& laying, std::size_t loop, std::size_t i) {
   const BorderPoint& p = laying.border.loops[loop][i % laying.border.loops[loop].size()];
   return {p.uv, p.point, sample(laying.surface, p.uv).frame.normal, border_id(laying, loop, i)};
 }
@@ -124,7 +124,7 @@ double curvature_along(const Surface& surface, Uv at, const Vec3& direction) {
 }
 
 /// Finds a point of the surface at `step` metres from `from`, ahead along `direction`. \return false if the surface does not continue in this way
-bool walk(const Surface& surface, const Place& from, const Vec3& direction, double step, Place& to) {
+bool walk(const Surface& surface, const RowLocation& from, const Vec3& direction, double step, RowLocation& to) {
   to.uv = from.uv;
   delaunay::SurfaceSample at = sample(surface, from.uv);
   double reach = step;
@@ -147,17 +147,17 @@ bool walk(const Surface& surface, const Place& from, const Vec3& direction, doub
 }
 
 void start_columns(const Laying& laying, Run& run) {
-  const BandRun& wish = *run.wish;
-  const auto& loop = laying.border.loops[wish.loop];
-  const auto point = [&](std::size_t i) -> const Point& { return loop[(wish.first + i) % loop.size()].point; };
-  const std::size_t n = wish.n_points;
-  const double side = laying.is_left[wish.loop] ? 1.0 : -1.0;
+  const BandRun& target = *run.target;
+  const auto& loop = laying.border.loops[target.loop];
+  const auto point = [&](std::size_t i) -> const Point& { return loop[(target.first + i) % loop.size()].point; };
+  const std::size_t n = target.n_points;
+  const double side = laying.is_left[target.loop] ? 1.0 : -1.0;
   std::vector<double> along{0.0};
   for (std::size_t i = 0; i + 1 < n; ++i) along.push_back(along.back() + distance(point(i), point(i + 1)));
   run.length = along.back();
   for (std::size_t i = 0; i < n; ++i) {
     RowColumn column;
-    column.rows.push_back(place_of(laying, wish.loop, wish.first + i));
+    column.rows.push_back(location_of(laying, target.loop, target.first + i));
     const std::size_t before = i > 0 ? i - 1 : 0, after = std::min(i + 1, n - 1);
     column.spacing = (along[after] - along[before]) / static_cast<double>(after - before);
     const Vec3& normal = column.rows[0].normal;
@@ -169,12 +169,12 @@ void start_columns(const Laying& laying, Run& run) {
   // The columns on the border, and the distance over which other columns are inclined like them.
   std::array<double, 2> reach{};
   for (const std::size_t end : {0u, 1u}) {
-    const std::size_t n_given = end == 0 ? wish.n_before : wish.n_after;
+    const std::size_t n_given = end == 0 ? target.n_before : target.n_after;
     if (n_given == 0) continue;
     RowColumn& column = run.columns[end == 0 ? 0 : n - 1];
     column.is_given = true;
     for (std::size_t k = 1; k <= n_given; ++k)
-      column.rows.push_back(place_of(laying, wish.loop, end == 0 ? wish.first + loop.size() - k : wish.first + n - 1 + k));
+      column.rows.push_back(location_of(laying, target.loop, end == 0 ? target.first + loop.size() - k : target.first + n - 1 + k));
     const Vec3 tangent = normalized(point(end == 0 ? 1 : n - 1) - point(end == 0 ? 0 : n - 2));
     reach[end] = std::max(k_lean_reach * std::abs(dot(column.rows.back().point - column.rows.front().point, tangent)), column.spacing);
   }
@@ -190,9 +190,9 @@ void start_columns(const Laying& laying, Run& run) {
 void set_directions(const Laying& laying, Run& run, std::size_t k) {
   std::vector<RowColumn>& columns = run.columns;
   const std::size_t n = columns.size();
-  const double side = laying.is_left[run.wish->loop] ? 1.0 : -1.0;
+  const double side = laying.is_left[run.target->loop] ? 1.0 : -1.0;
   const auto tangent_at = [&](std::size_t i, double& wide) {
-    const Place& here = columns[i].rows[k - 1];
+    const RowLocation& here = columns[i].rows[k - 1];
     const bool has_before = i > 0 && columns[i - 1].n_rows() + 1 >= k, has_after = i + 1 < n && columns[i + 1].n_rows() + 1 >= k;
     const Vec3 way = (has_after ? columns[i + 1].rows[k - 1].point : here.point) - (has_before ? columns[i - 1].rows[k - 1].point : here.point);
     wide = norm(way) / (has_before && has_after ? 2.0 : 1.0);
@@ -240,7 +240,8 @@ Obstacles make_obstacles(const Laying& laying) {
   result.run_of.assign(laying.first_of_loop.back(), -1);
   for (std::size_t r = 0; r < laying.runs.size(); ++r)
     for (const RowColumn& column : laying.runs[r].columns)
-      for (const Place& place : column.is_given ? column.rows : std::vector<Place>{column.rows[0]}) result.run_of[place.id] = static_cast<std::int32_t>(r);
+      for (const RowLocation& location : column.is_given ? column.rows : std::vector<RowLocation>{column.rows[0]})
+        result.run_of[location.id] = static_cast<std::int32_t>(r);
   result.points = PointGrid(std::move(points));
   return result;
 }
@@ -259,11 +260,11 @@ bool is_too_near(const Obstacles& obstacles, std::int32_t run, const Point& p, d
 
 /// Adds a row to a column. \return false if the column ends here
 bool grow(const Laying& laying, const Obstacles& obstacles, std::size_t run, RowColumn& column) {
-  const RowLaw& law = laying.runs[run].wish->law;
-  const Place& top = column.rows.back();
+  const RowLaw& law = laying.runs[run].target->law;
+  const RowLocation& top = column.rows.back();
   const double height = law.next_height(column.height, curvature_along(laying.surface, top.uv, column.direction));
   if (height > k_isotropic_height * column.at_top || column.n_rows() >= k_max_rows) return false;
-  Place next;
+  RowLocation next;
   if (!walk(laying.surface, top, column.direction, height / std::cos(column.lean), next)) return false;
   if (is_too_near(obstacles, static_cast<std::int32_t>(run), next.point, k_clearance * std::max(column.spacing, height), column.climbed + height)) return false;
   // The mean of the directions before and after a step is the direction of its chord.
@@ -291,26 +292,26 @@ void grow_rows(Laying& laying) {
   }
 }
 
-bool is_upright(const Laying& laying, const Place& a, const Place& b, const Place& c) {
-  const auto in_plane = [&](const Place& p) { return Vec2{p.uv.u * laying.scale.x, p.uv.v * laying.scale.y}; };
+bool is_upright(const Laying& laying, const RowLocation& a, const RowLocation& b, const RowLocation& c) {
+  const auto in_plane = [&](const RowLocation& p) { return Vec2{p.uv.u * laying.scale.x, p.uv.v * laying.scale.y}; };
   if (orient2d(in_plane(a), in_plane(b), in_plane(c)) <= 0) return false;
   const Vec3 normal = cross(b.point - a.point, c.point - a.point);
   return dot(normal, a.normal) > 0.0 && dot(normal, b.normal) > 0.0 && dot(normal, c.normal) > 0.0;
 }
 
-using PlaceTriangle = std::array<const Place*, 3>;
+using LocationTriangle = std::array<const RowLocation*, 3>;
 
 /// Visits the triangles between columns i and i + 1 in row k (counted from 1), counter-clockwise in (u, v). A column that ends below gives one triangle.
 template <class Visit>
 void for_each_cell(const Laying& laying, const Run& run, std::size_t i, const Visit& visit) {
   const RowColumn &left = run.columns[i], &right = run.columns[i + 1];
-  const bool is_left = laying.is_left[run.wish->loop];
-  const auto emit = [&](std::size_t k, const Place& a, const Place& b, const Place& c) {
-    is_left ? visit(k, PlaceTriangle{&a, &b, &c}) : visit(k, PlaceTriangle{&a, &c, &b});
+  const bool is_left = laying.is_left[run.target->loop];
+  const auto emit = [&](std::size_t k, const RowLocation& a, const RowLocation& b, const RowLocation& c) {
+    is_left ? visit(k, LocationTriangle{&a, &b, &c}) : visit(k, LocationTriangle{&a, &c, &b});
   };
   const std::size_t n = std::min(left.n_rows(), right.n_rows());
   for (std::size_t k = 1; k <= n; ++k) {
-    const Place &a = left.rows[k - 1], &b = right.rows[k - 1], &c = right.rows[k], &d = left.rows[k];
+    const RowLocation &a = left.rows[k - 1], &b = right.rows[k - 1], &c = right.rows[k], &d = left.rows[k];
     if (is_first_diagonal(a.point, b.point, c.point, d.point, (i + k) % 2 == 0)) {
       emit(k, a, b, c);
       emit(k, a, c, d);
@@ -337,7 +338,7 @@ void limit_rows(const Laying& laying, Run& run) {
     for (std::size_t i = columns.size() - 1; i > 0; --i) cut(run, i - 1, columns[i].n_rows() + 2);
     for (std::size_t i = 0; i + 1 < columns.size(); ++i) {
       std::size_t bad = std::numeric_limits<std::size_t>::max();
-      for_each_cell(laying, run, i, [&](std::size_t k, const PlaceTriangle& t) {
+      for_each_cell(laying, run, i, [&](std::size_t k, const LocationTriangle& t) {
         if (!is_upright(laying, *t[0], *t[1], *t[2])) bad = std::min(bad, k);
       });
       const double wide = distance(columns[i].rows[0].point, columns[i + 1].rows[0].point);
@@ -385,18 +386,18 @@ struct RestBorder {
 };
 
 /// Numbers the row vertices, and replaces each run's points by the outer boundary of its rows.
-RestBorder rest_of(Laying& laying, std::vector<const Place*>& row_places) {
+RestBorder rest_of(Laying& laying, std::vector<const RowLocation*>& row_locations) {
   const std::uint32_t n_border = laying.first_of_loop.back();
   for (Run& run : laying.runs)
     for (RowColumn& column : run.columns)
       for (std::size_t k = 1; !column.is_given && k < column.rows.size(); ++k) {
-        column.rows[k].id = n_border + static_cast<std::uint32_t>(row_places.size());
-        row_places.push_back(&column.rows[k]);
+        column.rows[k].id = n_border + static_cast<std::uint32_t>(row_locations.size());
+        row_locations.push_back(&column.rows[k]);
       }
   std::vector<std::uint8_t> is_covered(n_border, 0);
-  std::vector<std::vector<const Place*>> front_at(n_border);  // outer vertices of a run, stored at the first border point that they replace
+  std::vector<std::vector<const RowLocation*>> front_at(n_border);  // outer vertices of a run, stored at the first border point that they replace
   for (const Run& run : laying.runs) {
-    std::vector<const Place*> front;
+    std::vector<const RowLocation*> front;
     for (const RowColumn& column : run.columns) {
       front.push_back(&column.rows.back());
       for (std::size_t k = 0; k < (column.is_given ? column.rows.size() : 1); ++k) is_covered[column.rows[k].id] = 1;
@@ -416,7 +417,7 @@ RestBorder rest_of(Laying& laying, std::vector<const Place*>& row_places) {
     for (std::size_t i = 0; i < n; ++i) {
       const std::uint32_t id = border_id(laying, l, i);
       const BorderPoint& p = laying.border.loops[l][i];
-      for (const Place* place : front_at[id]) add(place->uv, place->point, place->id);
+      for (const RowLocation* location : front_at[id]) add(location->uv, location->point, location->id);
       if (is_covered[id] == 0) add(p.uv, p.point, id);
     }
     if (loop.size() > 1 && rest.ids.back() == rest.ids[first_id]) {
@@ -429,7 +430,7 @@ RestBorder rest_of(Laying& laying, std::vector<const Place*>& row_places) {
 }
 
 /// Joins the mesh of the rest and the rows: border points come first, in their order.
-FaceMesh join(const Laying& laying, const RestBorder& rest, const std::vector<const Place*>& row_places, FaceMesh inner) {
+FaceMesh join(const Laying& laying, const RestBorder& rest, const std::vector<const RowLocation*>& row_locations, FaceMesh inner) {
   FaceMesh result;
   result.report = inner.report;
   result.n_border = laying.first_of_loop.back();
@@ -439,10 +440,10 @@ FaceMesh join(const Laying& laying, const RestBorder& rest, const std::vector<co
       result.uv.push_back(p.uv);
       result.normals.push_back(sample(laying.surface, p.uv).frame.normal);
     }
-  for (const Place* place : row_places) {
-    result.points.push_back(place->point);
-    result.uv.push_back(place->uv);
-    result.normals.push_back(place->normal);
+  for (const RowLocation* location : row_locations) {
+    result.points.push_back(location->point);
+    result.uv.push_back(location->uv);
+    result.normals.push_back(location->normal);
   }
   std::vector<VertexId> number(inner.points.size());
   for (std::size_t i = 0; i < inner.points.size(); ++i) {
@@ -458,7 +459,7 @@ FaceMesh join(const Laying& laying, const RestBorder& rest, const std::vector<co
   for (const TriangleVertices& v : inner.triangles) result.triangles.push_back({number[v[0].index()], number[v[1].index()], number[v[2].index()]});
   for (const Run& run : laying.runs)
     for (std::size_t i = 0; i + 1 < run.columns.size(); ++i)
-      for_each_cell(laying, run, i, [&](std::size_t, const PlaceTriangle& t) {
+      for_each_cell(laying, run, i, [&](std::size_t, const LocationTriangle& t) {
         result.triangles.push_back({VertexId(t[0]->id), VertexId(t[1]->id), VertexId(t[2]->id)});
         ++result.n_band;
       });
@@ -466,15 +467,15 @@ FaceMesh join(const Laying& laying, const RestBorder& rest, const std::vector<co
 }
 
 /// Halves the number of rows near the locations (with `all`: the rows of all columns). \return true if there were any
-bool take_back(Laying& laying, const std::vector<ErrorPlace>& places, bool all, std::vector<Point>& dropped) {
+bool take_back(Laying& laying, const std::vector<ErrorLocation>& locations, bool all, std::vector<Point>& dropped) {
   bool is_any = false;
   for (Run& run : laying.runs) {
     for (std::size_t i = 0; i < run.columns.size(); ++i) {
       RowColumn& column = run.columns[i];
       if (column.n_rows() == 0) continue;
-      bool is_near = all || places.empty();
-      for (const ErrorPlace& place : places)
-        for (const Place& row : column.rows) is_near = is_near || distance(row.point, place.position) < k_take_back_reach * column.spacing;
+      bool is_near = all || locations.empty();
+      for (const ErrorLocation& location : locations)
+        for (const RowLocation& row : column.rows) is_near = is_near || distance(row.point, location.position) < k_take_back_reach * column.spacing;
       if (!is_near) continue;
       is_any = true;
       dropped.push_back(column.rows[0].point);
@@ -501,21 +502,21 @@ BandedFace mesh_banded_face(const Surface& surface, const FaceBorder& border, co
                             const FaceMeshOptions& options, const RunContext& context) {
   Laying laying{surface, border, {delaunay::scale_of_speed(mean_speed.x), delaunay::scale_of_speed(mean_speed.y)}, {0}, sides_of(border), {}, {}};
   for (const auto& loop : border.loops) laying.first_of_loop.push_back(laying.first_of_loop.back() + static_cast<std::uint32_t>(loop.size()));
-  for (const BandRun& wish : runs) {
-    laying.runs.push_back({&wish, {}, 0.0, {}});
+  for (const BandRun& target : runs) {
+    laying.runs.push_back({&target, {}, 0.0, {}});
     start_columns(laying, laying.runs.back());
   }
   grow_rows(laying);
   for (Run& run : laying.runs) limit_rows(laying, run);
   BandedFace result;
   for (int attempt = 0;; ++attempt) {
-    std::vector<const Place*> row_places;
-    const RestBorder rest = rest_of(laying, row_places);
+    std::vector<const RowLocation*> row_locations;
+    const RestBorder rest = rest_of(laying, row_locations);
     try {
-      result.mesh = join(laying, rest, row_places, mesh_face(surface, rest.border, size, mean_speed, options, context));
+      result.mesh = join(laying, rest, row_locations, mesh_face(surface, rest.border, size, mean_speed, options, context));
     } catch (const Error& error) {
       const bool may_be_rows = error.code() == ErrorCode::self_intersection || error.code() == ErrorCode::bad_argument;
-      if (!may_be_rows || !take_back(laying, error.info().places, attempt + 1 >= k_max_take_backs, result.dropped)) throw;
+      if (!may_be_rows || !take_back(laying, error.info().locations, attempt + 1 >= k_max_take_backs, result.dropped)) throw;
       continue;
     }
     break;

@@ -5,8 +5,8 @@
 #include <string>
 #include <vector>
 
-#include "surfmesh/face/face_mesh.h"
 #include "surfmesh/face/face_sizes.h"
+#include "surfmesh/face/sized_face_mesh.h"
 
 namespace sterna::surfmesh {
 

@@ -25,8 +25,8 @@ std::vector<double> sample_line(const std::vector<double>& breaks, const Interva
     if (b > range.from && b < range.to) ends.push_back(b);
   ends.push_back(range.to);
   const std::size_t n_pieces = ends.size() - 1;
-  const std::size_t wanted = std::clamp(n_pieces * k_samples_per_piece, k_min_samples - 1, k_max_samples - 1);
-  const std::size_t each = std::max<std::size_t>(1, (wanted + n_pieces - 1) / n_pieces);
+  const std::size_t target = std::clamp(n_pieces * k_samples_per_piece, k_min_samples - 1, k_max_samples - 1);
+  const std::size_t each = std::max<std::size_t>(1, (target + n_pieces - 1) / n_pieces);
   std::vector<double> line;
   for (std::size_t p = 0; p < n_pieces; ++p)
     for (std::size_t k = 0; k < each; ++k) line.push_back(ends[p] + (ends[p + 1] - ends[p]) * static_cast<double>(k) / static_cast<double>(each));

@@ -33,18 +33,18 @@ struct Candidate {
 };
 
 /// The vertices on the borders of the faces of a model, sorted by face.
-class BorderPlaces {
+class BorderLocations {
  public:
-  BorderPlaces(const SurfaceMesh& mesh, const Model& model) : mesh_(mesh), model_(model), of_corner_(mesh.mesh.n_vertices()) {
+  BorderLocations(const SurfaceMesh& mesh, const Model& model) : mesh_(mesh), model_(model), of_corner_(mesh.mesh.n_vertices()) {
     for (const CornerId c : mesh.corner_vertices.ids())
       if (const VertexId v = mesh.corner_vertices[c]; v.is_valid()) of_corner_[v].push_back(c);
   }
 
-  /// Returns all locations of the vertex in the face, in the order of its borders. Locations of inner vertices come from `places`. The result is never empty
+  /// Returns all locations of the vertex in the face, in the order of its borders. Locations of inner vertices come from `locations`. The result is never empty
   /// for a vertex of a triangle of the face, unless the edge of the face there was absorbed.
   std::vector<Candidate> in_face(VertexId v, FaceId f) const {
-    const EdgePlace& on_edge = mesh_.edge_places[v];
-    if (!on_edge.edge.is_valid() && of_corner_[v].empty()) return {{mesh_.places[v].at, {}}};
+    const EdgeLocation& on_edge = mesh_.edge_locations[v];
+    if (!on_edge.edge.is_valid() && of_corner_[v].empty()) return {{mesh_.locations[v].at, {}}};
     std::vector<Candidate> found;
     for (const Border& border : model_.faces[f].borders)
       for (const EdgeUse& use : border) {
@@ -54,7 +54,7 @@ class BorderPlaces {
         if (is_at(v, edge.start)) found.push_back({use.parameter->point(edge.range.from), use.edge});
         if (is_at(v, edge.end)) found.push_back({use.parameter->point(edge.range.to), use.edge});
       }
-    if (found.empty() && mesh_.places[v].face == f) found.push_back({mesh_.places[v].at, {}});
+    if (found.empty() && mesh_.locations[v].face == f) found.push_back({mesh_.locations[v].at, {}});
     return found;
   }
 
@@ -125,7 +125,7 @@ struct OwnFace {
   std::vector<TriangleId> triangles;  ///< numbers of the triangles in the joined mesh
 };
 
-OwnFace own_face(const SurfaceMesh& mesh, const Model& model, const BorderPlaces& places, const ParameterBox& box, FaceId f,
+OwnFace own_face(const SurfaceMesh& mesh, const Model& model, const BorderLocations& locations, const ParameterBox& box, FaceId f,
                  std::vector<TriangleId> triangles) {
   const ModelFace& of_model = model.faces[f];
   const Nearness nearness(*of_model.surface, box);
@@ -142,14 +142,14 @@ OwnFace own_face(const SurfaceMesh& mesh, const Model& model, const BorderPlaces
     const TriangleVertices& v = mesh.mesh.triangles[t];
     std::array<std::vector<Candidate>, 3> candidates;
     for (std::size_t k = 0; k < 3; ++k) {
-      candidates[k] = places.in_face(v[k], f);
+      candidates[k] = locations.in_face(v[k], f);
       if (candidates[k].empty()) candidates[k].push_back({SurfaceProjector(of_model.surface).nearest(mesh.mesh.points[v[k]]).at, EdgeId()});
     }
     const std::array<std::size_t, 3> chosen = nearest_together(candidates, nearness);
     std::array<std::pair<bool, std::uint32_t>, 3>& corner = corners.emplace_back();
     for (std::size_t k = 0; k < 3; ++k) {
       const bool is_inner =
-          !mesh.edge_places[v[k]].edge.is_valid() && mesh.places[v[k]].face == f && candidates[k].size() == 1 && !candidates[k].front().edge.is_valid();
+          !mesh.edge_locations[v[k]].edge.is_valid() && mesh.locations[v[k]].face == f && candidates[k].size() == 1 && !candidates[k].front().edge.is_valid();
       std::vector<Local>& list = is_inner ? inner : border;
       const auto [at, is_new] = number.try_emplace({v[k], chosen[k]}, static_cast<std::uint32_t>(list.size()));
       if (is_new) list.push_back({v[k], candidates[k][chosen[k]]});
@@ -162,7 +162,7 @@ OwnFace own_face(const SurfaceMesh& mesh, const Model& model, const BorderPlaces
     for (const Local& local : *list) {
       face.points.push_back(mesh.mesh.points[local.vertex]);
       face.uv.push_back(local.at.at);
-      face.normals.push_back(list == &border && places.is_pole(local.vertex, f) ? Vec3{} : normal_at(*of_model.surface, local.at.at));
+      face.normals.push_back(list == &border && locations.is_pole(local.vertex, f) ? Vec3{} : normal_at(*of_model.surface, local.at.at));
     }
   for (const Local& local : border) {
     own.face.border_ids.push_back(local.vertex);
@@ -193,13 +193,13 @@ struct Fault {
   std::int64_t n = 0;
   double worst = 0.0;  ///< worst value; larger is worse
   double value = 0.0, limit = 0.0;
-  Point place{};
+  Point location{};
   void add(double badness, double of_value, double of_limit, const Point& at) {
     if (n++ > 0 && badness <= worst) return;
     worst = badness;
     value = of_value;
     limit = of_limit;
-    place = at;
+    location = at;
   }
   void add(const Fault& other) {
     if (other.n == 0) return;
@@ -247,20 +247,20 @@ Faults faults_of(const OwnFace& own, const SurfaceMesh& before, const SurfaceMes
 std::string counted(std::int64_t n, std::string_view what) { return std::to_string(n) + " " + std::string(what) + (n == 1 ? "" : "s"); }
 
 /// Returns an empty string if there is no fault.
-std::string text_of(const Faults& faults, Point& place) {
+std::string text_of(const Faults& faults, Point& location) {
   const auto number = [](double value) { return number_text(value, 3); };
   if (const Fault& f = faults.folded; f.n > 0) {
-    place = f.place;
+    location = f.location;
     return counted(f.n, "triangle") + " would deviate from the surface normals by up to " + number(f.value / k_degree) + " degrees; the limit is " +
            number(f.limit / k_degree) + " degrees";
   }
   if (const Fault& f = faults.thin; f.n > 0) {
-    place = f.place;
+    location = f.location;
     return counted(f.n, "triangle") + " would be too thin, the worst with an angle of " + number(f.value / k_degree) + " degrees; the limit is " +
            number(f.limit / k_degree) + " degrees";
   }
   if (const Fault& f = faults.stretched; f.n > 0) {
-    place = f.place;
+    location = f.location;
     return counted(f.n, "edge") + " of triangles would be too long or too short, the worst " + number(f.value) +
            " times as long as in the reference; allowed are " + number(1.0 / f.limit) + " to " + number(f.limit) + " times";
   }
@@ -278,7 +278,7 @@ void measure_angles(const OwnFace& own, const SurfaceMesh& now, FaceMesh& face) 
     const Shape shape = shape_of(p);
     if (shape.least < report.min_angle) {
       report.min_angle = shape.least;
-      report.worst_place = (p[0] + p[1] + p[2]) / 3.0;
+      report.worst_location = (p[0] + p[1] + p[2]) / 3.0;
     }
     report.max_angle = std::max(report.max_angle, shape.largest);
     if (shape.least < k_least_angle || shape.largest > k_largest_angle) ++report.n_outside_20_130;
@@ -286,15 +286,15 @@ void measure_angles(const OwnFace& own, const SurfaceMesh& now, FaceMesh& face) 
 }
 
 /// Returns the new location of an absorbed part. The part moves like the nearest vertex.
-Point moved_place(const Point& place, const SurfaceMesh& before, const Column<VertexId, Point>& points) {
+Point moved_location(const Point& location, const SurfaceMesh& before, const Column<VertexId, Point>& points) {
   double nearest = std::numeric_limits<double>::infinity();
   VertexId of_nearest;
   for (const VertexId v : points.ids())
-    if (const double off = distance(before.mesh.points[v], place); off < nearest) {
+    if (const double off = distance(before.mesh.points[v], location); off < nearest) {
       nearest = off;
       of_nearest = v;
     }
-  return of_nearest.is_valid() ? place + (points[of_nearest] - before.mesh.points[of_nearest]) : place;
+  return of_nearest.is_valid() ? location + (points[of_nearest] - before.mesh.points[of_nearest]) : location;
 }
 
 }  // namespace
@@ -308,9 +308,9 @@ Column<VertexId, Point> carried_points(const StructuredMesh& from, const Model& 
   parallel_for(context, points.size(), [&](std::size_t i) {
     const VertexId v(static_cast<std::uint64_t>(i));
     if (corner[v].is_valid()) points[v] = model.corners[corner[v]].point;
-    else if (const EdgePlace& place = mesh.edge_places[v]; place.edge.is_valid())
-      points[v] = model.edges[place.edge].curve->point(carried(place.t, from.structure.edges[place.edge].range, now.edges[place.edge].range));
-    else if (const VertexPlace& at = mesh.places[v]; true)
+    else if (const EdgeLocation& location = mesh.edge_locations[v]; location.edge.is_valid())
+      points[v] = model.edges[location.edge].curve->point(carried(location.t, from.structure.edges[location.edge].range, now.edges[location.edge].range));
+    else if (const VertexLocation& at = mesh.locations[v]; true)
       points[v] = model.faces[at.face].surface->point(carried(at.at, from.structure.faces[at.face].box, now.faces[at.face].box));
   });
   return points;
@@ -319,24 +319,24 @@ Column<VertexId, Point> carried_points(const StructuredMesh& from, const Model& 
 CarriedMesh carry_mesh(const StructuredMesh& from, const Model& model, const ModelStructure& now, Column<VertexId, Point> points,
                        const SurfaceMeshOptions& options, const RunContext& context) {
   const SurfaceMesh& before = from.mesh;
-  const auto refuse = [](std::string objection, const Point& place) { return CarriedMesh{{}, std::move(objection), place}; };
+  const auto refuse = [](std::string objection, const Point& location) { return CarriedMesh{{}, std::move(objection), location}; };
   SurfaceMesh mesh = before;
   mesh.report = {};
   mesh.report.n_free_edges = before.report.n_free_edges;
   mesh.report.bands = before.report.bands;
   mesh.report.absorbed = before.report.absorbed;
-  for (AbsorbedPart& part : mesh.report.absorbed) part.place = moved_place(part.place, before, points);
+  for (AbsorbedPart& part : mesh.report.absorbed) part.location = moved_location(part.location, before, points);
   mesh.mesh.points = std::move(points);
-  for (const VertexId v : mesh.places.ids()) {
-    if (VertexPlace& place = mesh.places[v]; place.face.is_valid())
-      place.at = carried(place.at, from.structure.faces[place.face].box, now.faces[place.face].box);
-    if (EdgePlace& place = mesh.edge_places[v]; place.edge.is_valid())
-      place.t = carried(place.t, from.structure.edges[place.edge].range, now.edges[place.edge].range);
+  for (const VertexId v : mesh.locations.ids()) {
+    if (VertexLocation& location = mesh.locations[v]; location.face.is_valid())
+      location.at = carried(location.at, from.structure.faces[location.face].box, now.faces[location.face].box);
+    if (EdgeLocation& location = mesh.edge_locations[v]; location.edge.is_valid())
+      location.t = carried(location.t, from.structure.edges[location.edge].range, now.edges[location.edge].range);
   }
 
   Column<FaceId, std::vector<TriangleId>> triangles(model.faces.size());
   for (const TriangleId t : mesh.triangle_face.ids()) triangles[mesh.triangle_face[t]].push_back(t);
-  const BorderPlaces places(mesh, model);
+  const BorderLocations locations(mesh, model);
   Column<FaceId, MeshedFace> faces(model.faces.size());
   Column<FaceId, Faults> of_face(model.faces.size());
   parallel_for(
@@ -344,7 +344,7 @@ CarriedMesh carry_mesh(const StructuredMesh& from, const Model& model, const Mod
       [&](std::size_t i) {
         const FaceId f(static_cast<std::uint64_t>(i));
         const FaceMeshSummary& was = before.report.faces[i];
-        OwnFace own = own_face(mesh, model, places, now.faces[f].box, f, std::move(triangles[f]));
+        OwnFace own = own_face(mesh, model, locations, now.faces[f].box, f, std::move(triangles[f]));
         of_face[f] = faults_of(own, before, mesh, was, model.faces[f].is_reversed);
         if (!own.triangles.empty()) measure_angles(own, mesh, own.face.mesh);
         own.face.summary.face = f;
@@ -357,8 +357,8 @@ CarriedMesh carry_mesh(const StructuredMesh& from, const Model& model, const Mod
       1);
   Faults faults;
   for (const Faults& of_one : of_face) faults.add(of_one);
-  Point place;
-  if (std::string problem = text_of(faults, place); !problem.empty()) return refuse(std::move(problem), place);
+  Point location;
+  if (std::string problem = text_of(faults, location); !problem.empty()) return refuse(std::move(problem), location);
   if (options.crossings != "ignore")
     if (const MeshCrossings crossings = find_mesh_crossings(model, mesh, context); crossings.total > 0) {
       const auto p = corners(mesh.mesh, crossings.pairs.front()[0]);
@@ -368,7 +368,7 @@ CarriedMesh carry_mesh(const StructuredMesh& from, const Model& model, const Mod
   measure_triangles(mesh);
   const SmoothAngle smooth = measure_smooth_angle(model, faces, context);
   mesh.report.max_smooth_angle = smooth.angle;
-  mesh.report.smooth_angle_place = smooth.place;
+  mesh.report.smooth_angle_location = smooth.location;
   return {std::move(mesh), {}, {}};
 }
 

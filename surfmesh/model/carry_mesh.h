@@ -34,7 +34,7 @@ inline constexpr double k_normal_slack = 10.0 * 3.14159265358979323846 / 180.0;
 struct CarriedMesh {
   std::optional<SurfaceMesh> mesh;  ///< empty if the mesh would not be good enough
   std::string objection;            ///< the reason in that case, such as "3 triangles fold"
-  Point place{};                    ///< location of the problem
+  Point location{};                 ///< location of the problem
 };
 
 /// Returns the mesh on `model` if it passes the following tests. No triangle folds: its normal is compared with the surface normals at its corners

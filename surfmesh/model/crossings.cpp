@@ -49,7 +49,7 @@ Parts parts_of(const Model& model) {
   for (const ModelSolid& solid : model.solids)
     for (const FaceId f : solid.faces) is_in_solid[f] = 1;
   for (const auto& uses : uses_of_edges(model))
-    for (const EdgeUsePlace& use : uses)
+    for (const EdgeUseLocation& use : uses)
       if (is_in_solid[use.face] == 0 && is_in_solid[uses.front().face] == 0) join(uses.front().face, use.face);
   Parts parts{Column<FaceId, std::uint32_t>(model.faces.size(), 0), {}};
   for (const FaceId f : model.faces.ids()) {
@@ -59,7 +59,7 @@ Parts parts_of(const Model& model) {
     }
     parts.of_face[f] = parts.of_face[find(f)];
   }
-  const Column<EdgeId, std::vector<EdgeUsePlace>> uses = uses_of_edges(model);
+  const Column<EdgeId, std::vector<EdgeUseLocation>> uses = uses_of_edges(model);
   for (const EdgeId e : free_edges(model)) parts.is_closed[parts.of_face[uses[e].front().face]] = false;
   return parts;
 }
@@ -112,7 +112,7 @@ double gap_between(const Model& model, const SurfaceMesh& mesh, TriangleId a, Tr
   constexpr double k_apart = 0.01;
   const auto guess = [&](TriangleId t) -> std::optional<Uv> {
     for (const VertexId v : mesh.mesh.triangles[t])
-      if (mesh.places[v].face == mesh.triangle_face[t]) return mesh.places[v].at;
+      if (mesh.locations[v].face == mesh.triangle_face[t]) return mesh.locations[v].at;
     return std::nullopt;
   };
   std::optional<Uv> at_a = guess(a), at_b = guess(b);
@@ -143,7 +143,7 @@ double refining_factor(const Model& model, const SurfaceMesh& mesh, TriangleId a
 }
 
 /// Returns a point on both triangles within double precision, at the intersection of an edge of one triangle with the other triangle.
-Point crossing_place(const Triangle& a, const Triangle& b) {
+Point crossing_location(const Triangle& a, const Triangle& b) {
   Vec3 sum;
   double n = 0.0;
   const auto add = [&](const Triangle& edges, const Triangle& plane) {
@@ -229,7 +229,7 @@ std::vector<CrossingFaces> crossing_faces(const Model& model, const SurfaceMesh&
     at->second.second = second;
     at->second.is_one_part = parts.of_face[first] == parts.of_face[second];
     at->second.is_closed = parts.is_closed[parts.of_face[first]] && parts.is_closed[parts.of_face[second]];
-    at->second.place = crossing_place(corners(mesh.mesh, pair[0]), corners(mesh.mesh, pair[1]));
+    at->second.location = crossing_location(corners(mesh.mesh, pair[0]), corners(mesh.mesh, pair[1]));
   }
   std::vector<CrossingFaces> result;
   for (const auto& [key, entry] : found) result.push_back(entry);
@@ -239,23 +239,23 @@ std::vector<CrossingFaces> crossing_faces(const Model& model, const SurfaceMesh&
 
 ErrorInfo crossing_error(const Model& model, const SurfaceMesh& mesh, const MeshCrossings& crossings, const std::vector<CrossingFaces>& faces) {
   ErrorInfo info{.code = ErrorCode::self_intersection, .attempted = "meshing the model's surface"};
-  const auto count = [&](auto&& wanted) { return std::count_if(faces.begin(), faces.end(), wanted); };
+  const auto count = [&](auto&& predicate) { return std::count_if(faces.begin(), faces.end(), predicate); };
   const auto n_own = count([](const CrossingFaces& c) { return c.is_one_part; });
   const auto n_closed = count([](const CrossingFaces& c) { return !c.is_one_part && c.is_closed; });
   const auto n_open = static_cast<std::ptrdiff_t>(faces.size()) - n_own - n_closed;
   info.problem = std::to_string(crossings.total) + " pairs of triangles cross or touch, on " + std::to_string(faces.size()) + " pairs of faces (" +
                  std::to_string(n_own) + " within one part, " + std::to_string(n_closed + n_open) + " between parts that overlap or touch)";
-  info.n_places = static_cast<std::int64_t>(faces.size());
-  for (std::size_t i = 0; i < std::min(k_max_places, faces.size()); ++i) {
+  info.n_locations = static_cast<std::int64_t>(faces.size());
+  for (std::size_t i = 0; i < std::min(k_max_locations, faces.size()); ++i) {
     const CrossingFaces& c = faces[i];
     const auto folds = [&](FaceId f) { return mesh.report.faces.empty() ? false : mesh.report.faces[f.index()].max_normal_angle > k_folded; };
     std::string what = c.first == c.second ? name_of(model, c.first) + " and itself" : name_of(model, c.first) + " and " + name_of(model, c.second);
     what += ": " + std::to_string(c.n_pairs) + " pairs";
     for (const FaceId f : {c.first, c.second}) {
       if (!c.is_one_part || !folds(f) || (f == c.second && c.first == c.second)) continue;
-      what += "; face " + std::to_string(f.value()) + " folds or has no normal at " + format_point(mesh.report.faces[f.index()].normal_place);
+      what += "; face " + std::to_string(f.value()) + " folds or has no normal at " + format_point(mesh.report.faces[f.index()].normal_location);
     }
-    info.places.push_back({c.place, what});
+    info.locations.push_back({c.location, what});
   }
   const auto advise = [&](const std::string& text) { info.hint += (info.hint.empty() ? "" : "; ") + text; };
   if (n_closed > 0) advise("unite the parts first: union{ ... } or sterna union model.step -o united.step");

@@ -24,7 +24,7 @@ constexpr double k_reach = 0.1;
 constexpr double k_near_edges = 2.0;
 /// Relative to the body length: all faces within this distance are used, even if the nearest face is much nearer. Edges of models deviate from their faces by
 /// about this distance.
-constexpr double k_same_place = 1e-9;
+constexpr double k_same_location = 1e-9;
 /// Relative to the body length: a node within this distance of a vertex of the wall lies on the model, and no other location is searched.
 constexpr double k_same = 1e-14;
 /// Queries per chunk. One query takes 5 to 50 us.
@@ -75,21 +75,21 @@ class Probe {
     const NearestHit hit = tree_.nearest(p);
     for (const VertexId v : wall_.triangles[hit.triangle])
       if (norm2(wall_.points[v] - p) <= k_same * k_same * length_ * length_)
-        if (const std::optional<Point> place = model_.place_of(v))
-          if (const double d = norm(*place - p); d <= k_same * length_) return d;
+        if (const std::optional<Point> location = model_.location_of(v))
+          if (const double d = norm(*location - p); d <= k_same * length_) return d;
     return nearest(p, hit).distance;
   }
 
   /// Returns the nearest location on the model.
-  ModelFoot nearest(const Point& p) const { return nearest(p, tree_.nearest(p)); }
+  ModelProjection nearest(const Point& p) const { return nearest(p, tree_.nearest(p)); }
   TriangleId nearest_triangle(const Point& p) const { return tree_.nearest(p).triangle; }
 
   /// Returns the nearest locations of all faces around the point, each within its face's border.
-  std::vector<ModelFoot> feet(const Point& p, const NearestHit& hit) const {
-    std::vector<NearFace> faces = faces_near(p, hit.distance + std::max(k_reach * longest_edge(hit.triangle), k_same_place * length_));
-    std::vector<ModelFoot> feet;
-    for (const NearFace& near : faces) feet.push_back(foot_of(p, near));
-    return feet;
+  std::vector<ModelProjection> projections(const Point& p, const NearestHit& hit) const {
+    std::vector<NearFace> faces = faces_near(p, hit.distance + std::max(k_reach * longest_edge(hit.triangle), k_same_location * length_));
+    std::vector<ModelProjection> projections;
+    for (const NearFace& near : faces) projections.push_back(projection_of(p, near));
+    return projections;
   }
 
   struct Turn {
@@ -98,13 +98,13 @@ class Probe {
   };
   /// \pre `normal` points out of the body.
   Turn turn_of(const Point& centroid, const Vec3& normal) const {
-    const std::vector<ModelFoot> all = feet(centroid, tree_.nearest(centroid));
-    const double reach = std::max(k_near_edges * least_distance(all), k_same_place * length_);
+    const std::vector<ModelProjection> all = projections(centroid, tree_.nearest(centroid));
+    const double reach = std::max(k_near_edges * least_distance(all), k_same_location * length_);
     Turn turn{.is_without = true};
     double best = std::numeric_limits<double>::infinity();
-    for (const ModelFoot& foot : all) {
-      if (foot.distance > reach) continue;
-      const std::optional<ModelNormal> of_model = model_.normal(foot.face, foot.at);
+    for (const ModelProjection& projection : all) {
+      if (projection.distance > reach) continue;
+      const std::optional<ModelNormal> of_model = model_.normal(projection.face, projection.at);
       if (!of_model) continue;
       turn.is_without = false;
       const double angle = angle_between(of_model->normal, normal);
@@ -117,9 +117,9 @@ class Probe {
   }
 
  private:
-  static double least_distance(const std::vector<ModelFoot>& feet) {
+  static double least_distance(const std::vector<ModelProjection>& projections) {
     double least = std::numeric_limits<double>::infinity();
-    for (const ModelFoot& foot : feet) least = std::min(least, foot.distance);
+    for (const ModelProjection& projection : projections) least = std::min(least, projection.distance);
     return least;
   }
 
@@ -128,10 +128,10 @@ class Probe {
     return std::sqrt(std::max({norm2(p[1] - p[0]), norm2(p[2] - p[1]), norm2(p[0] - p[2])}));
   }
 
-  ModelFoot nearest(const Point& p, const NearestHit& hit) const {
-    ModelFoot best;
-    for (const ModelFoot& foot : feet(p, hit))
-      if (foot.distance < best.distance) best = foot;
+  ModelProjection nearest(const Point& p, const NearestHit& hit) const {
+    ModelProjection best;
+    for (const ModelProjection& projection : projections(p, hit))
+      if (projection.distance < best.distance) best = projection;
     return best;
   }
 
@@ -144,7 +144,7 @@ class Probe {
       const Point q = nearest_on_triangle(p, corners(wall_, t));
       const double d2 = norm2(q - p);
       if (d2 > reach * reach) return true;
-      const FaceId f = model_.places().triangle_face[t];
+      const FaceId f = model_.locations().triangle_face[t];
       const auto at = std::lower_bound(faces.begin(), faces.end(), f, [](const NearFace& near, FaceId id) { return near.face < id; });
       if (at == faces.end() || at->face != f) {
         faces.insert(at, NearFace{f, t, q, d2, {t}});
@@ -161,18 +161,18 @@ class Probe {
     return faces;
   }
 
-  ModelFoot foot_of(const Point& p, const NearFace& near) const {
-    const ModelFoot foot = model_.foot(p, near.nearest, weights_of(near.point, corners(wall_, near.nearest)));
-    if (foot.is_inside) return foot;
-    ModelFoot best;
+  ModelProjection projection_of(const Point& p, const NearFace& near) const {
+    const ModelProjection projection = model_.projection(p, near.nearest, weights_of(near.point, corners(wall_, near.nearest)));
+    if (projection.is_inside) return projection;
+    ModelProjection best;
     for (const TriangleId t : near.triangles)
       for (std::size_t k = 0; k < 3; ++k)
-        if (const std::optional<ModelFoot> on_edge = model_.edge_foot(p, t, k); on_edge && on_edge->distance < best.distance) best = *on_edge;
+        if (const std::optional<ModelProjection> on_edge = model_.edge_projection(p, t, k); on_edge && on_edge->distance < best.distance) best = *on_edge;
     if (best.face.is_valid()) return best;
     // The border of the face is an edge that is too short for the mesh. The distance to the triangle is used instead.
-    ModelFoot stand_in = foot;
-    stand_in.distance = std::max(foot.distance, std::sqrt(near.distance2));
-    return stand_in;
+    ModelProjection placeholder = projection;
+    placeholder.distance = std::max(projection.distance, std::sqrt(near.distance2));
+    return placeholder;
   }
 
   const TriMesh& wall_;

@@ -75,7 +75,7 @@ void measure_angles(FaceMesh& mesh) {
     const auto [least, largest] = std::minmax_element(angles.begin(), angles.end());
     if (*least < report.min_angle) {
       report.min_angle = *least;
-      report.worst_place = (a + b + c) / 3.0;
+      report.worst_location = (a + b + c) / 3.0;
     }
     report.max_angle = std::max(report.max_angle, *largest);
     if (*least < k_least || *largest > k_largest) ++report.n_outside_20_130;

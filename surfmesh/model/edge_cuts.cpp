@@ -96,15 +96,15 @@ double t_at_step(const Curve& curve, double from, double end, double step) {
 }
 
 /// Returns the locations where the rows of a band meet an edge that leaves the band, starting at the corner.
-std::vector<double> row_places(EdgeId e, const ModelEdge& edge, const EdgeSamples& samples, std::size_t end, const CrossingEnd& crossing,
-                               const SurfaceSizes& field) {
+std::vector<double> row_locations(EdgeId e, const ModelEdge& edge, const EdgeSamples& samples, std::size_t end, const CrossingEnd& crossing,
+                                  const SurfaceSizes& field) {
   constexpr double k_share_of_edge = 0.45;  // less than half, because the other end may have rows, too
   constexpr int k_step_iterations = 4;      // few steps suffice: the edge turns little within a step, so each iteration gains a digit or two
   const double start = end == 0 ? edge.range.from : edge.range.to, stop = end == 0 ? edge.range.to : edge.range.from;
   const double spacing = std::min(crossing.longest, field.on_edge(e, start));
-  std::vector<double> places;
+  std::vector<double> locations;
   double t = start, height = 0.0, along = 0.0;
-  while (places.size() < k_max_rows) {
+  while (locations.size() < k_max_rows) {
     const CurveDerivatives d = edge.curve->derivatives(t);
     const double speed2 = norm2(d.first), curvature = speed2 > 0.0 ? norm(cross(d.first, d.second)) / (speed2 * std::sqrt(speed2)) : 0.0;
     height = crossing.law.next_height(height, std::isfinite(curvature) ? curvature : 0.0);
@@ -121,9 +121,9 @@ std::vector<double> row_places(EdgeId e, const ModelEdge& edge, const EdgeSample
     if (height > k_isotropic_height * spacing || along > k_share_of_edge * samples.length) break;
     t = next;
     if (t == stop) break;
-    places.push_back(t);
+    locations.push_back(t);
   }
-  return places;
+  return locations;
 }
 
 EdgeCut cut_at(const ModelEdge& edge, const std::vector<Station>& stations, std::size_t n_segments) {
@@ -131,10 +131,10 @@ EdgeCut cut_at(const ModelEdge& edge, const std::vector<Station>& stations, std:
   std::size_t i = 0;
   const double total = stations.back().metric;
   for (std::size_t k = 1; k < n_segments; ++k) {
-    const double wanted = total * static_cast<double>(k) / static_cast<double>(n_segments);
-    while (i + 2 < stations.size() && stations[i + 1].metric < wanted) ++i;
+    const double target = total * static_cast<double>(k) / static_cast<double>(n_segments);
+    while (i + 2 < stations.size() && stations[i + 1].metric < target) ++i;
     const double step = stations[i + 1].metric - stations[i].metric;
-    const double share = step > 0.0 ? (wanted - stations[i].metric) / step : 0.5;
+    const double share = step > 0.0 ? (target - stations[i].metric) / step : 0.5;
     cut.t.push_back(stations[i].t + share * (stations[i + 1].t - stations[i].t));
     cut.points.push_back(edge.curve->point(cut.t.back()));
   }
@@ -143,11 +143,11 @@ EdgeCut cut_at(const ModelEdge& edge, const std::vector<Station>& stations, std:
 
 /// Returns the parameter at a fraction of the length along the samples.
 double t_at_share(const EdgeSamples& samples, double share) {
-  const double wanted = share * samples.length;
+  const double target = share * samples.length;
   double along = 0.0;
   for (std::size_t i = 0; i + 1 < samples.samples.size(); ++i) {
     const double step = distance(samples.samples[i].point, samples.samples[i + 1].point);
-    if (along + step >= wanted && step > 0.0) return samples.samples[i].t + (wanted - along) / step * (samples.samples[i + 1].t - samples.samples[i].t);
+    if (along + step >= target && step > 0.0) return samples.samples[i].t + (target - along) / step * (samples.samples[i + 1].t - samples.samples[i].t);
     along += step;
   }
   return samples.samples.back().t;
@@ -219,50 +219,50 @@ std::size_t segments_by_turning(double turning) { return static_cast<std::size_t
 /// the others.
 class PeriodicCutter {
  public:
-  PeriodicCutter(const Model& model, const Column<EdgeId, EdgeSamples>& edges, const ModelTopology& topology, const WingBands& bands, const PeriodicRims& rims,
-                 const SurfaceSizes& field)
+  PeriodicCutter(const Model& model, const Column<EdgeId, EdgeSamples>& edges, const ModelTopology& topology, const WingBands& bands,
+                 const PeriodicBorders& borders, const SurfaceSizes& field)
       : model_(model),
         edges_(edges),
         topology_(topology),
         bands_(bands),
-        rims_(rims),
+        borders_(borders),
         field_(field),
-        samples_(rims.pieces.size()),
-        stations_(rims.pieces.size()),
-        n_(rims.pieces.size(), 1),
-        n_even_(rims.pieces.size(), 0) {
-    of_kind_.resize(rims.pieces.size());
-    for (std::size_t i = 0; i < rims.pieces.size(); ++i) of_kind_[rims.pieces[i].like].push_back(i);
+        samples_(borders.pieces.size()),
+        stations_(borders.pieces.size()),
+        n_(borders.pieces.size(), 1),
+        n_even_(borders.pieces.size(), 0) {
+    of_kind_.resize(borders.pieces.size());
+    for (std::size_t i = 0; i < borders.pieces.size(); ++i) of_kind_[borders.pieces[i].like].push_back(i);
   }
 
-  bool has(EdgeId e) const { return !rims_.empty() && rims_.of_edge[e][1] > 0; }
+  bool has(EdgeId e) const { return !borders_.empty() && borders_.of_edge[e][1] > 0; }
 
   void measure_all(const RunContext& context) {
     parallel_for(
-        context, rims_.pieces.size(), [&](std::size_t i) { measure_kind(i); }, 1);
+        context, borders_.pieces.size(), [&](std::size_t i) { measure_kind(i); }, 1);
   }
 
   std::size_t n_segments(EdgeId e) const {
-    const auto [first, n] = rims_.of_edge[e];
+    const auto [first, n] = borders_.of_edge[e];
     std::size_t sum = 0;
-    for (std::size_t i = first; i < first + n; ++i) sum += n_[rims_.pieces[i].like];
+    for (std::size_t i = first; i < first + n; ++i) sum += n_[borders_.pieces[i].like];
     return sum;
   }
   /// Sets the minimum number of segments to two, for the edge and each of its images.
   void divide(EdgeId e) {
-    for (std::size_t i = rims_.of_edge[e][0]; i < rims_.of_edge[e][0] + rims_.of_edge[e][1]; ++i)
-      n_[rims_.pieces[i].like] = std::max<std::size_t>(n_[rims_.pieces[i].like], 2);
+    for (std::size_t i = borders_.of_edge[e][0]; i < borders_.of_edge[e][0] + borders_.of_edge[e][1]; ++i)
+      n_[borders_.pieces[i].like] = std::max<std::size_t>(n_[borders_.pieces[i].like], 2);
   }
 
   EdgeCut cut(EdgeId e) const {
-    const auto [first, n] = rims_.of_edge[e];
+    const auto [first, n] = borders_.of_edge[e];
     EdgeCut whole;
     for (std::size_t i = first; i < first + n; ++i) {
       const EdgeCut part = cut_piece(i);
       whole.t.insert(whole.t.end(), part.t.begin(), part.t.end());
       whole.points.insert(whole.points.end(), part.points.begin(), part.points.end());
       if (i + 1 == first + n) break;
-      const RimStop& stop = rims_.stops[e][i - first];
+      const BorderStop& stop = borders_.stops[e][i - first];
       whole.t.push_back(stop.t);
       whole.points.push_back(stop.point);
     }
@@ -271,20 +271,20 @@ class PeriodicCutter {
 
  private:
   void measure_kind(std::size_t first) {
-    const RimPiece& piece = rims_.pieces[first];
+    const PeriodicPiece& piece = borders_.pieces[first];
     if (piece.like != first) return;
     const std::vector<std::size_t>& kind = of_kind_[first];
     samples_[first] = measured_part_of(model_.edges[piece.edge], edges_[piece.edge], piece.range.from, piece.range.to);
     stations_[first] = measure(model_.edges[piece.edge], samples_[first], [&](double t) {
       double least = std::numeric_limits<double>::infinity();
-      for (const std::size_t i : kind) least = std::min(least, field_.on_edge(rims_.pieces[i].edge, image_parameter(rims_, i, t, model_, edges_)));
+      for (const std::size_t i : kind) least = std::min(least, field_.on_edge(borders_.pieces[i].edge, image_parameter(borders_, i, t, model_, edges_)));
       return least;
     });
     bool is_band = false;
     for (const std::size_t i : kind) {
-      const EdgeId e = rims_.pieces[i].edge;
+      const EdgeId e = borders_.pieces[i].edge;
       is_band = is_band || bands_.edges[e].has_value();
-      const std::size_t n_pieces = rims_.of_edge[e][1];
+      const std::size_t n_pieces = borders_.of_edge[e][1];
       if (n_pieces == 1) n_even_[first] = std::max(n_even_[first], bands_.n_short[e]);
       if (topology_.corner[model_.edges[e].start] == topology_.corner[model_.edges[e].end])
         n_[first] = std::max(n_[first], (k_closed_segments + n_pieces - 1) / n_pieces);
@@ -294,8 +294,8 @@ class PeriodicCutter {
   }
 
   EdgeCut cut_piece(std::size_t i) const {
-    const RimPiece& piece = rims_.pieces[i];
-    const RimPiece& first = rims_.pieces[piece.like];
+    const PeriodicPiece& piece = borders_.pieces[i];
+    const PeriodicPiece& first = borders_.pieces[piece.like];
     const ModelEdge& edge = model_.edges[first.edge];
     EdgeCut cut = n_even_[piece.like] > 0 ? cut_evenly(edge, samples_[piece.like], n_[piece.like]) : cut_at(edge, stations_[piece.like], n_[piece.like]);
     if (piece.like == i) return cut;
@@ -314,7 +314,7 @@ class PeriodicCutter {
   const Column<EdgeId, EdgeSamples>& edges_;
   const ModelTopology& topology_;
   const WingBands& bands_;
-  const PeriodicRims& rims_;
+  const PeriodicBorders& borders_;
   const SurfaceSizes& field_;
   std::vector<std::vector<std::size_t>> of_kind_;
   std::vector<EdgeSamples> samples_;
@@ -326,10 +326,10 @@ class PeriodicCutter {
 }  // namespace
 
 Column<EdgeId, EdgeCut> cut_edges(const Model& model, const Column<EdgeId, EdgeSamples>& edges, const ModelTopology& topology, const WingBands& bands,
-                                  const PeriodicRims& rims, const SurfaceSizes& field, const RunContext& context) {
-  PeriodicCutter alike(model, edges, topology, bands, rims, field);
+                                  const PeriodicBorders& borders, const SurfaceSizes& field, const RunContext& context) {
+  PeriodicCutter alike(model, edges, topology, bands, borders, field);
   alike.measure_all(context);
-  const Column<EdgeId, std::vector<EdgeUsePlace>> uses = uses_of_edges(model);
+  const Column<EdgeId, std::vector<EdgeUseLocation>> uses = uses_of_edges(model);
   Column<EdgeId, std::vector<Station>> stations(model.edges.size());
   Column<EdgeId, std::size_t> n_segments(model.edges.size(), 1);
   Column<EdgeId, std::array<std::vector<double>, 2>> rows(model.edges.size());
@@ -341,7 +341,7 @@ Column<EdgeId, EdgeCut> cut_edges(const Model& model, const Column<EdgeId, EdgeS
         Interval between = model.edges[e].range;
         for (const std::size_t end : {0u, 1u})
           if (bands.crossings[e][end].is_any && !bands.edges[e]) {
-            rows[e][end] = row_places(e, model.edges[e], edges[e], end, bands.crossings[e][end], field);
+            rows[e][end] = row_locations(e, model.edges[e], edges[e], end, bands.crossings[e][end], field);
             if (!rows[e][end].empty()) (end == 0 ? between.from : between.to) = rows[e][end].back();
           }
         const bool has_rows = !rows[e][0].empty() || !rows[e][1].empty();

@@ -6,7 +6,7 @@
 
 #include "surfmesh/model/edge_samples.h"
 #include "surfmesh/model/model_topology.h"
-#include "surfmesh/model/periodic_rims.h"
+#include "surfmesh/model/periodic_borders.h"
 #include "surfmesh/model/surface_sizes.h"
 #include "surfmesh/model/wing_bands.h"
 
@@ -22,8 +22,8 @@ struct EdgeCut {
 /// Cuts each edge into segments of equal length in the metric 1 / size. Closed edges get three segments; at most one of several edges between the same corners
 /// has a single segment. Band edges have no segment longer than their stretch allows. Edges that leave a band begin with the heights of its rows. Opposite
 /// sides of strips are matched. Borders of periodic sides are cut in the same way, by the smallest of their sizes. The points of an image are the moved points
-/// of the original; they are within k_rim_tolerance of the curve.
+/// of the original; they are within k_border_tolerance of the curve.
 Column<EdgeId, EdgeCut> cut_edges(const Model& model, const Column<EdgeId, EdgeSamples>& edges, const ModelTopology& topology, const WingBands& bands,
-                                  const PeriodicRims& rims, const SurfaceSizes& field, const RunContext& context);
+                                  const PeriodicBorders& borders, const SurfaceSizes& field, const RunContext& context);
 
 }  // namespace sterna::surfmesh

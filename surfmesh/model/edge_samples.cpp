@@ -19,8 +19,8 @@ EdgeSamples sample_edge(const ModelEdge& edge) {
     if (b > edge.range.from && b < edge.range.to) ends.push_back(b);
   ends.push_back(edge.range.to);
   const std::size_t n_pieces = ends.size() - 1;
-  const std::size_t wanted = std::clamp(n_pieces * k_per_piece, k_least, k_most);
-  const std::size_t each = (wanted + n_pieces - 1) / n_pieces;
+  const std::size_t target = std::clamp(n_pieces * k_per_piece, k_least, k_most);
+  const std::size_t each = (target + n_pieces - 1) / n_pieces;
   const auto add = [&](double t) {
     const CurveDerivatives d = edge.curve->derivatives(t);
     const double speed2 = norm2(d.first);

@@ -21,7 +21,7 @@ std::string rounded(double n) {
   return text;
 }
 
-Point place_on(const Model& model, const Column<EdgeId, EdgeSamples>& edges, FaceId f) {
+Point location_on(const Model& model, const Column<EdgeId, EdgeSamples>& edges, FaceId f) {
   for (const Border& border : model.faces[f].borders)
     for (const EdgeUse& use : border)
       if (const auto& samples = edges[use.edge].samples; !samples.empty()) return samples[samples.size() / 2].point;
@@ -31,10 +31,10 @@ Point place_on(const Model& model, const Column<EdgeId, EdgeSamples>& edges, Fac
 }  // namespace
 
 double estimated_triangles(const ModelSizes& sizes, FaceId face) {
-  const FaceSizes& wanted = sizes.faces[face];
+  const FaceSizes& target = sizes.faces[face];
   double n = 0.0;
-  wanted.curvature->for_each_cell([&](double by_curvature, double area) {
-    const double size = std::min(by_curvature, wanted.max_edge);
+  target.curvature->for_each_cell([&](double by_curvature, double area) {
+    const double size = std::min(by_curvature, target.max_edge);
     n += area / (k_equilateral_area * size * size);
   });
   return n;
@@ -60,13 +60,13 @@ void check_estimate(const Model& model, const ModelSizes& sizes, const Column<Ed
   std::stable_sort(entries.begin(), entries.end(), [](const Entry& a, const Entry& b) { return a.n > b.n; });
   ErrorInfo info{.code = ErrorCode::overflow, .attempted = k_estimate_attempt};
   info.problem = "the target sizes require about " + rounded(total) + " triangles; max_triangles is " + std::to_string(options.max_triangles);
-  info.n_places = static_cast<std::int64_t>(entries.size());
+  info.n_locations = static_cast<std::int64_t>(entries.size());
   for (std::size_t i = 0; i < std::min(k_shown_faces, entries.size()); ++i) {
     const FaceId f = entries[i].face;
     char size[32];
     std::snprintf(size, sizeof size, "%.3g", sizes.faces[f].max_edge);
-    info.places.push_back({place_on(model, edges, f), "\"" + model.faces[f].name + "\" (face " + std::to_string(f.value()) + "): about " +
-                                                          rounded(entries[i].n) + " with edges of " + size + " m at most"});
+    info.locations.push_back({location_on(model, edges, f), "\"" + model.faces[f].name + "\" (face " + std::to_string(f.value()) + "): about " +
+                                                                rounded(entries[i].n) + " with edges of " + size + " m at most"});
   }
   info.hint = "a larger max_edge, min_edge or curvature_angle; check the units of the model";
   throw Error(std::move(info));
@@ -80,12 +80,12 @@ void check_band_estimate(const Model& model, const WingBands& bands, const Colum
     if (n <= options.max_triangles) continue;
     char first[32];
     std::snprintf(first, sizeof first, "%.3g", bands.edges[e]->first);
-    const Point place = edges[e].samples[edges[e].samples.size() / 2].point;
+    const Point location = edges[e].samples[edges[e].samples.size() / 2].point;
     throw Error({.code = ErrorCode::overflow,
                  .attempted = k_estimate_attempt,
                  .problem = "a band with a first cell of " + std::string(first) + " m requires more than " + rounded(n) + " triangles; max_triangles is " +
                             std::to_string(options.max_triangles),
-                 .places = {{place, bands.edges[e]->kind == BandKind::leading ? "leading edge" : "trailing edge"}},
+                 .locations = {{location, bands.edges[e]->kind == BandKind::leading ? "leading edge" : "trailing edge"}},
                  .hint = "a larger chordwise or stretch; check the units of the model"});
   }
 }

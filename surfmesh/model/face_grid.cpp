@@ -229,7 +229,7 @@ FaceGrid::FaceGrid(const Surface& surface, const ParameterBox& box, std::span<co
   FaceGridBuilder(*this, surface, loops, bounds).run();
 }
 
-FaceGrid::Place FaceGrid::find(Uv at) const {
+FaceGrid::Location FaceGrid::find(Uv at) const {
   const auto share = [](const Interval& range, double period, double t) {
     if (period > 0.0 && (t > range.to || t < range.from)) {
       const double moved = t - std::floor((t - range.from) / period) * period;
@@ -237,17 +237,17 @@ FaceGrid::Place FaceGrid::find(Uv at) const {
     }
     return range.length() > 0.0 ? std::clamp((t - range.from) / range.length(), 0.0, 1.0) : 0.0;
   };
-  Place place{0, share(box_.u, period_.u, at.u), share(box_.v, period_.v, at.v)};
+  Location location{0, share(box_.u, period_.u, at.u), share(box_.v, period_.v, at.v)};
   std::uint32_t entry = tree_.front();
   while ((entry & k_is_leaf) == 0) {
-    double& x = (entry & k_is_v) != 0 ? place.t : place.s;
+    double& x = (entry & k_is_v) != 0 ? location.t : location.s;
     x *= 2.0;
     const bool is_upper = x >= 1.0;
     if (is_upper) x -= 1.0;
     entry = tree_[(entry & k_index) + (is_upper ? 1 : 0)];
   }
-  place.cell = entry & k_index;
-  return place;
+  location.cell = entry & k_index;
+  return location;
 }
 
 void FaceGrid::forget_nodes() {

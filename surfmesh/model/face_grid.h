@@ -47,12 +47,12 @@ class FaceGrid {
     friend auto operator<=>(const Hanging&, const Hanging&) = default;
   };
   const std::vector<Hanging>& hanging() const { return hanging_; }
-  struct Place {
+  struct Location {
     std::uint32_t cell = 0;
     double s = 0.0, t = 0.0;  ///< location within the cell, in [0, 1]
   };
   /// Finds the cell of a parameter location. Locations outside the box are moved into it by whole periods, or clamped to it.
-  Place find(Uv at) const;
+  Location find(Uv at) const;
   /// Frees the data that look-ups do not need.
   void forget_nodes();
 

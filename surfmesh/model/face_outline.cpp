@@ -9,7 +9,7 @@ namespace {
 /// Number of polygon points of an edge use. Straight parameter curves need only two.
 constexpr int k_polygon_points = 24;
 
-const EdgeUse& use_at(const Model& model, const EdgeUsePlace& place) { return model.faces[place.face].borders[place.border][place.place]; }
+const EdgeUse& use_at(const Model& model, const EdgeUseLocation& location) { return model.faces[location.face].borders[location.border][location.location]; }
 
 /// Returns the whole number of periods nearest to `jump`, times the period.
 double whole_periods(double jump, double period) { return std::round(jump / period) * period; }
@@ -68,7 +68,7 @@ void move_holes_inside(FaceOutline& outline, double period_u, double period_v) {
 
 }  // namespace
 
-Uv parameters_at(const Model& model, const OutlineUse& use, double t) { return use_at(model, use.place).parameter->point(t) + use.shift; }
+Uv parameters_at(const Model& model, const OutlineUse& use, double t) { return use_at(model, use.location).parameter->point(t) + use.shift; }
 
 FaceOutline outline_of(const Model& model, FaceId id) {
   const ModelFace& face = model.faces[id];

@@ -9,7 +9,7 @@ namespace sterna::surfmesh {
 
 /// One use of an edge in the order of its border, with the (u, v) shift that makes the border continuous on a periodic surface.
 struct OutlineUse {
-  EdgeUsePlace place;
+  EdgeUseLocation location;
   Uv shift;
   double gap = 0.0;  ///< in (u, v), the larger component of the distance from the end of the previous use
 };

@@ -30,7 +30,7 @@ FaceRegion::FaceRegion(Borrowed<const Model> of, FaceId face) : model_(&of.get()
   for (std::uint32_t b = 0; b < outline_.borders.size(); ++b)
     for (std::uint32_t i = 0; i < outline_.borders[b].size(); ++i) {
       const OutlineUse& use = outline_.borders[b][i];
-      const EdgeUse& edge_use = model.faces[face].borders[use.place.border][use.place.place];
+      const EdgeUse& edge_use = model.faces[face].borders[use.location.border][use.location.location];
       const Interval range = model.edges[edge_use.edge].range;
       const auto parameter = [&](int k) {
         const double share = static_cast<double>(k) / k_pieces;
@@ -52,7 +52,7 @@ FaceRegion::FaceRegion(Borrowed<const Model> of, FaceId face) : model_(&of.get()
 
 bool FaceRegion::is_left_of(const Piece& piece, Uv at) const {
   const OutlineUse& use = outline_.borders[piece.border][piece.use];
-  const EdgeUse& edge_use = model_->faces[use.place.face].borders[use.place.border][use.place.place];
+  const EdgeUse& edge_use = model_->faces[use.location.face].borders[use.location.border][use.location.location];
   const Uv chord = piece.to - piece.from;
   double t = piece.t_from + dot_of(at - piece.from, chord) / dot_of(chord, chord) * (piece.t_to - piece.t_from);
   const auto [least, most] = std::minmax(piece.t_from, piece.t_to);

@@ -37,15 +37,15 @@ SurfaceMesh join_faces(const Model& model, const ModelTopology& topology, const 
   TriMesh& mesh = result.mesh;
   const Column<FaceId, PatchId> patch_of = make_patches(model, mesh);
   mesh.points.resize(numbers.n);
-  result.edge_places.resize(numbers.n);
-  result.places.resize(numbers.n);
+  result.edge_locations.resize(numbers.n);
+  result.locations.resize(numbers.n);
   for (const CornerId c : model.corners.ids())
     if (topology.corner[c] == c && numbers.of_corner[c].is_valid()) mesh.points[numbers.of_corner[c]] = model.corners[c].point;
   for (const EdgeId e : model.edges.ids())
     for (std::size_t k = 0; topology.same_as[e].edge == e && k < cuts[e].t.size(); ++k) {
       const VertexId v(numbers.first_of_edge[e] + static_cast<std::uint32_t>(k));
       mesh.points[v] = cuts[e].points[k];
-      result.edge_places[v] = {e, cuts[e].t[k]};
+      result.edge_locations[v] = {e, cuts[e].t[k]};
     }
   for (const FaceId f : faces.ids()) {
     const MeshedFace& face = faces[f];
@@ -53,11 +53,11 @@ SurfaceMesh join_faces(const Model& model, const ModelTopology& topology, const 
     const std::uint32_t n_border = face.mesh.n_border;
     if (face.failure || topology.is_absorbed[f] != 0) continue;
     for (std::uint32_t i = 0; i < n_border; ++i)
-      if (VertexPlace& place = result.places[face.border_ids[i]]; !place.face.is_valid()) place = {f, face.mesh.uv[i]};
+      if (VertexLocation& location = result.locations[face.border_ids[i]]; !location.face.is_valid()) location = {f, face.mesh.uv[i]};
     for (std::size_t i = n_border; i < face.mesh.points.size(); ++i) {
       mesh.points.push_back(face.mesh.points[i]);
-      result.places.push_back({f, face.mesh.uv[i]});
-      result.edge_places.push_back({});
+      result.locations.push_back({f, face.mesh.uv[i]});
+      result.edge_locations.push_back({});
     }
     for (std::size_t t = 0; t < face.mesh.triangles.size(); ++t) {
       TriangleVertices v = face.mesh.triangles[t];
@@ -78,13 +78,13 @@ SurfaceMesh join_faces(const Model& model, const ModelTopology& topology, const 
     if (!number[v].is_valid()) continue;
     number[v] = VertexId(n);
     mesh.points[VertexId(n)] = mesh.points[v];
-    result.places[VertexId(n)] = result.places[v];
-    result.edge_places[VertexId(n)] = result.edge_places[v];
+    result.locations[VertexId(n)] = result.locations[v];
+    result.edge_locations[VertexId(n)] = result.edge_locations[v];
     ++n;
   }
   mesh.points.resize(n);
-  result.places.resize(n);
-  result.edge_places.resize(n);
+  result.locations.resize(n);
+  result.edge_locations.resize(n);
   for (TriangleVertices& v : mesh.triangles)
     for (VertexId& w : v) w = number[w];
   result.corner_vertices.resize(model.corners.size());
@@ -107,7 +107,7 @@ JoinFaults check_joins(const Model& model, const ModelTopology& topology, const 
   });
   parallel_sort(context, entries, std::less<>{});
   Column<FaceId, std::uint8_t> has_free_edge(model.faces.size(), 0);
-  const Column<EdgeId, std::vector<EdgeUsePlace>> uses = uses_of_edges(model);
+  const Column<EdgeId, std::vector<EdgeUseLocation>> uses = uses_of_edges(model);
   Column<EdgeId, std::uint8_t> is_free(model.edges.size(), 0);
   for (const EdgeId e : free_edges(model)) is_free[e] = 1;
   for (const FaceId f : model.faces.ids())
@@ -116,7 +116,7 @@ JoinFaults check_joins(const Model& model, const ModelTopology& topology, const 
         for (const EdgeUse& use : border) is_free[topology.same_as[use.edge].edge] = 1;
   for (const EdgeId e : model.edges.ids())
     if (is_free[topology.same_as[e].edge] != 0)
-      for (const EdgeUsePlace& place : uses[e]) has_free_edge[place.face] = 1;
+      for (const EdgeUseLocation& location : uses[e]) has_free_edge[location.face] = 1;
   for (std::size_t i = 0; i < entries.size();) {
     std::size_t end = i + 1;
     while (end < entries.size() && entries[end].low == entries[i].low && entries[end].high == entries[i].high) ++end;

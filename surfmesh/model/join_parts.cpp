@@ -40,8 +40,8 @@ void append_mesh(const SurfaceMesh& part, const Transform& placement, const Offs
     all.triangle_face.push_back(shifted(part.triangle_face[t], at.faces));
     all.is_band.push_back(part.is_band[t]);
   }
-  for (const VertexPlace& place : part.places) all.places.push_back({shifted(place.face, at.faces), place.at});
-  for (const EdgePlace& place : part.edge_places) all.edge_places.push_back({shifted(place.edge, at.edges), place.t});
+  for (const VertexLocation& location : part.locations) all.locations.push_back({shifted(location.face, at.faces), location.at});
+  for (const EdgeLocation& location : part.edge_locations) all.edge_locations.push_back({shifted(location.edge, at.edges), location.t});
   for (const VertexId v : part.corner_vertices) all.corner_vertices.push_back(shifted(v, at.vertices));
 }
 
@@ -68,11 +68,11 @@ void append_report(SurfaceMeshReport part, const Offsets& at, bool is_first, Sur
   all.max_angle = std::max(all.max_angle, part.max_angle);
   if (part.max_edge_distance > all.max_edge_distance) {
     all.max_edge_distance = part.max_edge_distance;
-    all.edge_distance_place = part.edge_distance_place;
+    all.edge_distance_location = part.edge_distance_location;
   }
   if (part.max_smooth_angle > all.max_smooth_angle) {
     all.max_smooth_angle = part.max_smooth_angle;
-    all.smooth_angle_place = part.smooth_angle_place;
+    all.smooth_angle_location = part.smooth_angle_location;
   }
   all.n_free_edges += part.n_free_edges;
   all.n_rounds = std::max(all.n_rounds, part.n_rounds);
@@ -105,18 +105,18 @@ void move_points(const Transform& placement, Column<VertexId, Point>& points) {
   for (Point& p : points) p = placement.point(p);
 }
 
-void move_places(const Transform& placement, SurfaceMeshReport& report) {
+void move_locations(const Transform& placement, SurfaceMeshReport& report) {
   if (placement == Transform{}) return;
   const auto move = [&](Point& p) { p = placement.point(p); };
   for (FaceMeshSummary& face : report.faces) {
-    move(face.worst_place);
-    move(face.normal_place);
+    move(face.worst_location);
+    move(face.normal_location);
   }
-  for (AbsorbedPart& part : report.absorbed) move(part.place);
-  for (LooseEdge& loose : report.loose_edges) move(loose.place);
-  for (CrossingFaces& crossing : report.crossings) move(crossing.place);
-  move(report.edge_distance_place);
-  move(report.smooth_angle_place);
+  for (AbsorbedPart& part : report.absorbed) move(part.location);
+  for (LooseEdge& loose : report.loose_edges) move(loose.location);
+  for (CrossingFaces& crossing : report.crossings) move(crossing.location);
+  move(report.edge_distance_location);
+  move(report.smooth_angle_location);
 }
 
 std::optional<SurfaceMesh> join_parts(const Model& model, std::span<const PlacedMesh> parts, const SurfaceMeshOptions& options, const RunContext& context) {
@@ -126,7 +126,7 @@ std::optional<SurfaceMesh> join_parts(const Model& model, std::span<const Placed
   for (const PlacedMesh& part : parts) {
     append_mesh(*part.mesh, part.placement, at, known, all);
     SurfaceMeshReport report = part.mesh->report;
-    move_places(part.placement, report);
+    move_locations(part.placement, report);
     append_report(std::move(report), at, &part == parts.data(), all.report);
     at.vertices += part.mesh->mesh.n_vertices();
     at.faces += part.model->faces.size();

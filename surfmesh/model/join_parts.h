@@ -26,8 +26,8 @@ struct PlacedMesh {
 /// \throws Error(self_intersection) for other crossings, unless options.crossings allows them; Error(overflow) for more than max_triangles
 std::optional<SurfaceMesh> join_parts(const Model& model, std::span<const PlacedMesh> parts, const SurfaceMeshOptions& options, const RunContext& context);
 
-/// Moves the points of a mesh; move_places() moves the locations in the report of the mesh.
+/// Moves the points of a mesh; move_locations() moves the locations in the report of the mesh.
 void move_points(const Transform& placement, Column<VertexId, Point>& points);
-void move_places(const Transform& placement, SurfaceMeshReport& report);
+void move_locations(const Transform& placement, SurfaceMeshReport& report);
 
 }  // namespace sterna::surfmesh

@@ -21,7 +21,7 @@ LabelledBorder border_of(const Model& model, FaceId f, const ModelTopology& topo
     std::vector<BorderPoint> loop;
     Uv end;
     for (const OutlineUse& entry : uses) {
-      const EdgeUse& use = model.faces[f].borders[entry.place.border][entry.place.place];
+      const EdgeUse& use = model.faces[f].borders[entry.location.border][entry.location.location];
       const ModelEdge& edge = model.edges[use.edge];
       const Interval range = edge.range;
       end = use.parameter->point(use.is_reversed ? range.from : range.to) + entry.shift;  // also set for absorbed edges, because the last one may close a ring
@@ -79,14 +79,14 @@ LabelledBorder merge_touching(const Model& model, FaceId f, const LabelledBorder
     for (BorderPoint p : loop) {
       const EdgeId e = given.edges[i];
       const VertexId id = given.ids[i++];
-      std::vector<Uv>& places = met[id];
+      std::vector<Uv>& locations = met[id];
       const auto is_same = [&](const Uv& q) {
         const Uv step = p.uv - q;
         if (std::abs(step.u) > k_near * box.u.length() || std::abs(step.v) > k_near * box.v.length()) return false;
         return distance(surface.point(p.uv), surface.point(q)) <= tolerance_of(model, f, e);
       };
-      if (const auto near = std::find_if(places.begin(), places.end(), is_same); near != places.end()) p.uv = *near;
-      else places.push_back(p.uv);
+      if (const auto near = std::find_if(locations.begin(), locations.end(), is_same); near != locations.end()) p.uv = *near;
+      else locations.push_back(p.uv);
       if (!kept.empty() && kept.back().uv == p.uv && result.ids.back() == id) continue;
       kept.push_back(p);
       result.ids.push_back(id);
@@ -127,7 +127,7 @@ void measure_face(MeshedFace& face) {
   summary.n_band = static_cast<std::int64_t>(mesh.n_band);
   summary.min_angle = mesh.report.min_angle;
   summary.max_angle = mesh.report.max_angle;
-  summary.worst_place = mesh.report.worst_place;
+  summary.worst_location = mesh.report.worst_location;
   summary.n_outside_20_130 = mesh.report.n_outside_20_130;
   // Cosines are compared instead of angles, because only the largest angle is needed.
   const double allowed = std::cos(summary.curvature_angle);
@@ -145,7 +145,7 @@ void measure_face(MeshedFace& face) {
       is_above = is_above || cosine < allowed;
       if (cosine >= least) continue;
       least = cosine;
-      summary.normal_place = mesh.points[w.index()];
+      summary.normal_location = mesh.points[w.index()];
     }
     if (is_above) summary.area_above += 0.5 * length;
   }
@@ -160,7 +160,7 @@ void measure_border(const Model& model, const std::vector<EdgeId>& edges, Meshed
     const double off = distance(surface.point(mesh.uv[i]), mesh.points[i]);
     if (off > face.edge_distance) {
       face.edge_distance = off;
-      face.edge_distance_place = mesh.points[i];
+      face.edge_distance_location = mesh.points[i];
     }
     if (!edges[i].is_valid()) continue;
     const double tolerance = tolerance_of(model, face.summary.face, edges[i]);
@@ -173,7 +173,7 @@ void measure_border(const Model& model, const std::vector<EdgeId>& edges, Meshed
 
 BorderVertices number_border(const Model& model, const ModelTopology& topology, const Column<EdgeId, EdgeCut>& cuts) {
   BorderVertices numbers{Column<CornerId, VertexId>(model.corners.size()), Column<EdgeId, std::uint32_t>(model.edges.size(), 0), 0, 0};
-  const Column<EdgeId, std::vector<EdgeUsePlace>> uses = uses_of_edges(model);
+  const Column<EdgeId, std::vector<EdgeUseLocation>> uses = uses_of_edges(model);
   Column<CornerId, std::uint8_t> is_used(model.corners.size(), 0);
   for (const EdgeId e : model.edges.ids())
     if (!uses[e].empty()) is_used[topology.corner[model.edges[e].start]] = is_used[topology.corner[model.edges[e].end]] = 1;

@@ -6,7 +6,7 @@
 #include <vector>
 
 #include "geom/base/error.h"
-#include "surfmesh/face/face_mesh.h"
+#include "surfmesh/face/sized_face_mesh.h"
 #include "surfmesh/model/edge_cuts.h"
 #include "surfmesh/model/model_sizes.h"
 #include "surfmesh/model/surface_sizes.h"
@@ -28,7 +28,7 @@ struct MeshedFace {
   std::optional<ErrorInfo> failure;  ///< set instead of a mesh
   FaceMeshSummary summary;
   double edge_distance = 0.0;  ///< metres: largest distance of a border point from the surface
-  Point edge_distance_place{};
+  Point edge_distance_location{};
   std::vector<LooseEdge> loose_edges;  ///< loose edges of this face
   BandMeasures bands;
   std::vector<std::string> notes;  ///< names of rows or strips that had to be omitted

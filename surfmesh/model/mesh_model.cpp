@@ -37,9 +37,9 @@ constexpr int k_digits = 4;  ///< digits of numbers in messages
 
 struct Meshing : SizedModel {
   WingBands bands;
-  PeriodicRims rims;
+  PeriodicBorders periodic_borders;
   std::vector<AbsorbedPart> absorbed;
-  std::vector<SizeSite> repairs;
+  std::vector<SizePoint> repairs;
   Column<EdgeId, EdgeCut> cuts;
   Column<FaceId, MeshedFace> faces;
   std::set<FaceId> to_mesh;
@@ -71,7 +71,7 @@ class FaceProgress {
 /// Cuts edges again. Meshes the faces whose edges changed and the faces that are marked for re-meshing.
 SurfaceMesh mesh_round(Meshing& meshing, const SurfaceSizes& field, const RunContext& context) {
   const Model& model = meshing.model;
-  Column<EdgeId, EdgeCut> cuts = cut_edges(model, meshing.edges, meshing.topology, meshing.bands, meshing.rims, field, context);
+  Column<EdgeId, EdgeCut> cuts = cut_edges(model, meshing.edges, meshing.topology, meshing.bands, meshing.periodic_borders, field, context);
   std::vector<FaceId> work;
   for (const FaceId f : model.faces.ids()) {
     bool is_concerned = meshing.cuts.empty() || meshing.to_mesh.contains(f);
@@ -102,15 +102,15 @@ SurfaceMesh mesh_round(Meshing& meshing, const SurfaceSizes& field, const RunCon
 /// Returns the sizes of a round. They are equal on periodic borders: a requirement on one border also applies to its images.
 SurfaceSizes sizes_of_round(const Meshing& meshing, const RunContext& context) {
   SurfaceSizes field(meshing.model, meshing.edges, meshing.topology, meshing.sizes, meshing.repairs, context);
-  if (meshing.rims.empty()) return field;
-  std::vector<SizeSite> in_space = sizes_of_partners(meshing.rims, meshing.model, meshing.edges, field);
+  if (meshing.periodic_borders.empty()) return field;
+  std::vector<SizePoint> in_space = sizes_of_partners(meshing.periodic_borders, meshing.model, meshing.edges, field);
   if (in_space.empty()) return field;
   in_space.insert(in_space.end(), meshing.repairs.begin(), meshing.repairs.end());
   return SurfaceSizes(meshing.model, meshing.edges, meshing.topology, meshing.sizes, std::move(in_space), context);
 }
 
-void refine_at(Meshing& meshing, FaceId f, const Point& place, double size, double factor = k_repair_factor) {
-  meshing.repairs.push_back({place, factor * size});
+void refine_at(Meshing& meshing, FaceId f, const Point& location, double size, double factor = k_repair_factor) {
+  meshing.repairs.push_back({location, factor * size});
   meshing.to_mesh.insert(f);
 }
 
@@ -120,16 +120,16 @@ void refine_at(Meshing& meshing, FaceId f, const Point& place, double size, doub
     const MeshedFace& face = meshing.faces[f];
     if (!face.failure) continue;
     if (face.failure->code == ErrorCode::overflow || face.failure->code == ErrorCode::bad_argument) info.code = face.failure->code;
-    ++info.n_places;
-    if (info.places.size() >= k_max_places) continue;
-    Point place;
-    if (!face.failure->places.empty()) place = face.failure->places.front().position;
+    ++info.n_locations;
+    if (info.locations.size() >= k_max_locations) continue;
+    Point location;
+    if (!face.failure->locations.empty()) location = face.failure->locations.front().position;
     else if (const EdgeSamples& samples = meshing.edges[meshing.model.faces[f].borders.front().front().edge]; !samples.samples.empty())
-      place = samples.samples.front().point;
-    info.places.push_back({place, face.failure->attempted + ": " + face.failure->problem});
+      location = samples.samples.front().point;
+    info.locations.push_back({location, face.failure->attempted + ": " + face.failure->problem});
     if (info.hint.empty()) info.hint = face.failure->hint;
   }
-  info.problem = std::to_string(info.n_places) + " of " + std::to_string(meshing.model.faces.size()) + " faces cannot be meshed";
+  info.problem = std::to_string(info.n_locations) + " of " + std::to_string(meshing.model.faces.size()) + " faces cannot be meshed";
   info.hint += std::string(info.hint.empty() ? "" : "; ") + "failed_faces = \"hole\" leaves these faces out; --auto also fills the holes";
   throw Error(std::move(info));
 }
@@ -144,8 +144,8 @@ bool refine_failures(Meshing& meshing, const SurfaceSizes& field) {
     if (face.failure->code == ErrorCode::overflow) throw_failures(meshing);  // finer edges would increase the number of triangles further
     const double cap = meshing.sizes.faces[f].max_edge;
     const auto size_at = [&](const Point& p) { return std::min(cap, field.least_near(p)); };
-    for (const ErrorPlace& place : face.failure->places) refine_at(meshing, f, place.position, size_at(place.position));
-    if (!face.failure->places.empty()) continue;
+    for (const ErrorLocation& location : face.failure->locations) refine_at(meshing, f, location.position, size_at(location.position));
+    if (!face.failure->locations.empty()) continue;
     for (const Border& border : meshing.model.faces[f].borders)
       for (const EdgeUse& use : border)
         for (const EdgeSample& s : meshing.edges[use.edge].samples) refine_at(meshing, f, s.point, size_at(s.point));
@@ -164,10 +164,10 @@ void refine_triangle(Meshing& meshing, const SurfaceMesh& mesh, TriangleId t, do
   ErrorInfo info{.code = ErrorCode::non_manifold_surface,
                  .attempted = k_attempted,
                  .problem = "triangles of adjacent faces do not match: edges have one or more than two triangles, or two triangles of opposite orientation"};
-  info.n_places = static_cast<std::int64_t>(faults.triangles.size());
-  for (std::size_t i = 0; i < std::min(k_max_places, faults.triangles.size()); ++i) {
+  info.n_locations = static_cast<std::int64_t>(faults.triangles.size());
+  for (std::size_t i = 0; i < std::min(k_max_locations, faults.triangles.size()); ++i) {
     const auto p = corners(mesh.mesh, faults.triangles[i]);
-    info.places.push_back({(p[0] + p[1] + p[2]) / 3.0, "face \"" + meshing.model.faces[mesh.triangle_face[faults.triangles[i]]].name + "\""});
+    info.locations.push_back({(p[0] + p[1] + p[2]) / 3.0, "face \"" + meshing.model.faces[mesh.triangle_face[faults.triangles[i]]].name + "\""});
   }
   info.hint = "check the model in CAD: faces may overlap, or an edge may have more than two faces";
   throw Error(std::move(info));
@@ -197,8 +197,8 @@ std::vector<std::string> holes_of(const Meshing& meshing) {
     const MeshedFace& face = meshing.faces[f];
     if (!face.failure) continue;
     const CornerId corner = meshing.model.edges[meshing.model.faces[f].borders.front().front().edge].start;
-    const Point place = !face.failure->places.empty() ? face.failure->places.front().position : meshing.model.corners[corner].point;
-    notes.push_back("face " + std::to_string(f.value()) + ", \"" + meshing.model.faces[f].name + "\", near " + format_point(place) +
+    const Point location = !face.failure->locations.empty() ? face.failure->locations.front().position : meshing.model.corners[corner].point;
+    notes.push_back("face " + std::to_string(f.value()) + ", \"" + meshing.model.faces[f].name + "\", near " + format_point(location) +
                     " cannot be meshed and is left as a hole: " + face.failure->problem);
   }
   return notes;
@@ -231,18 +231,18 @@ SurfaceMesh mesh_model(const Model& model, const SurfaceMeshOptions& options, st
   return mesh_model(model, options, patches, SpaceSizes{}, context);
 }
 
-SurfaceMesh mesh_model(const Model& model, const SurfaceMeshOptions& options, std::span<const PatchSurfaceOptions> patches, const SpaceSizes& asked,
+SurfaceMesh mesh_model(const Model& model, const SurfaceMeshOptions& options, std::span<const PatchSurfaceOptions> patches, const SpaceSizes& requested,
                        const RunContext& context) {
   check_options(options);
-  Meshing meshing{sized_model(model, options, patches, asked, context), {}, {}, {}, {}, {}, {}, {}};
+  Meshing meshing{sized_model(model, options, patches, requested, context), {}, {}, {}, {}, {}, {}, {}};
   check_estimate(model, meshing.sizes, meshing.edges, options);
   meshing.topology = absorb_small_parts(model, meshing.edges, meshing.sizes, meshing.absorbed);
   if (const std::vector<SidePair> pairs = side_pairs(options.periodic); !pairs.empty())
-    meshing.rims = find_periodic_rims(model, meshing.edges, pairs, meshing.topology);
+    meshing.periodic_borders = find_periodic_borders(model, meshing.edges, pairs, meshing.topology);
   meshing.bands = find_wing_bands(model, meshing.edges, meshing.sizes, meshing.topology);
   check_band_estimate(model, meshing.bands, meshing.edges, options);
   meshing.sizes.is_covered = [&](FaceId f, const Point& p) { return meshing.bands.covers(meshing.edges, f, p); };
-  add_narrow_places(meshing, &meshing.bands, context);
+  add_narrow_locations(meshing, &meshing.bands, context);
   context.progress(k_prepared);
   SurfaceMesh mesh;
   MeshCrossings crossings;
@@ -284,7 +284,7 @@ SurfaceMesh mesh_model(const Model& model, const SurfaceMeshOptions& options, st
   for (const std::string& note : mesh.report.bands.notes) context.warn(note);
   const SmoothAngle smooth = measure_smooth_angle(model, meshing.faces, context);
   mesh.report.max_smooth_angle = smooth.angle;
-  mesh.report.smooth_angle_place = smooth.place;
+  mesh.report.smooth_angle_location = smooth.location;
   if (smooth.angle_outside_spots > k_largest_smooth_turn)
     context.warn("the mesh turns by " + number_text(std::round(smooth.angle_outside_spots * 180.0 / std::numbers::pi), k_digits) + " degrees at " +
                  format_point(smooth.place_outside_spots) +
@@ -307,12 +307,12 @@ std::string to_text(const SurfaceMeshReport& report) {
   text += " 1 % below " + number(report.angle_quantile_1 / k_degree) + " degrees\n";
   if (report.worst_face.is_valid()) {
     const FaceMeshSummary& worst = report.faces[report.worst_face.index()];
-    text += "worst angle on \"" + worst.name + "\" at " + format_point(worst.worst_place) + "\n";
+    text += "worst angle on \"" + worst.name + "\" at " + format_point(worst.worst_location) + "\n";
   }
   if (report.worst_normal_face.is_valid()) {
     const FaceMeshSummary& worst = report.faces[report.worst_normal_face.index()];
     text += "normals within the curvature angle on " + number(100.0 * report.share_normals) + " % of the area; largest deviation on \"" + worst.name +
-            "\" at " + format_point(worst.normal_place) + ", " + number(worst.max_normal_angle / k_degree) + " degrees for " +
+            "\" at " + format_point(worst.normal_location) + ", " + number(worst.max_normal_angle / k_degree) + " degrees for " +
             number(worst.curvature_angle / k_degree) + "\n";
   }
   if (const BandSummary& bands = report.bands; bands.n_triangles > 0) {
@@ -326,14 +326,15 @@ std::string to_text(const SurfaceMeshReport& report) {
   if (!report.loose_edges.empty()) {
     const LooseEdge& loose = report.loose_edges.front();
     text += "; " + std::to_string(report.loose_edges.size()) + " edges exceed their tolerance, first: " + number(loose.distance) + " m instead of " +
-            number(loose.tolerance) + " m beside \"" + report.faces[loose.face.index()].name + "\" at " + format_point(loose.place);
+            number(loose.tolerance) + " m beside \"" + report.faces[loose.face.index()].name + "\" at " + format_point(loose.location);
   }
   constexpr double k_flat = 1e-6;  // rad: smaller angles are negligible
   if (report.max_smooth_angle > k_flat)
-    text += "; smooth regions turn by up to " + number(report.max_smooth_angle / k_degree) + " degrees per edge, at " + format_point(report.smooth_angle_place);
+    text +=
+        "; smooth regions turn by up to " + number(report.max_smooth_angle / k_degree) + " degrees per edge, at " + format_point(report.smooth_angle_location);
   if (!report.absorbed.empty())
     text += "; " + std::to_string(report.absorbed.size()) + " small parts removed, first: " + report.absorbed.front().what + " at " +
-            format_point(report.absorbed.front().place);
+            format_point(report.absorbed.front().location);
   if (report.n_crossings > 0) text += "; " + std::to_string(report.n_crossings) + " pairs of triangles cross";
   return text + "\n";
 }

@@ -25,7 +25,7 @@ void summarise_faces(const Column<FaceId, MeshedFace>& faces, SurfaceMeshReport&
     report.max_angle = std::max(report.max_angle, face.summary.max_angle);
     if (face.edge_distance > report.max_edge_distance) {
       report.max_edge_distance = face.edge_distance;
-      report.edge_distance_place = face.edge_distance_place;
+      report.edge_distance_location = face.edge_distance_location;
     }
     report.loose_edges.insert(report.loose_edges.end(), face.loose_edges.begin(), face.loose_edges.end());
     area += face.summary.area;

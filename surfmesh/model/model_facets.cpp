@@ -106,7 +106,7 @@ std::vector<FacetLoop> loops_of(const Model& model, FaceId f, const FaceOutline&
   for (const auto& uses : outline.borders) {
     FacetLoop loop;
     for (const OutlineUse& entry : uses) {
-      const EdgeUse& use = model.faces[f].borders[entry.place.border][entry.place.place];
+      const EdgeUse& use = model.faces[f].borders[entry.location.border][entry.location.location];
       const ModelEdge& edge = model.edges[use.edge];
       if (edge.is_degenerate()) {
         const Point pole = model.corners[edge.start].point;
@@ -143,7 +143,7 @@ ParameterBox box_around(const std::vector<FacetLoop>& loops) {
 /// Returns the number of pieces of equal parameter length along u (or v). It is a power of two, large enough that the chords of a line of the surface are
 /// within the tolerance.
 std::size_t rows_along(const Surface& surface, const ParameterBox& box, bool is_u, double tolerance) {
-  const auto place = [&](double along, double across) {
+  const auto location = [&](double along, double across) {
     const Uv at{is_u ? along : across, is_u ? across : along};
     return Uv{box.u.from + at.u * box.u.length(), box.v.from + at.v * box.v.length()};
   };
@@ -154,7 +154,7 @@ std::size_t rows_along(const Surface& surface, const ParameterBox& box, bool is_
     double worst = 0.0;
     for (int line = 0; line < k_curvature_lines; ++line) {
       at.clear();
-      for (std::size_t k = 0; k <= 4 * n; ++k) at.push_back(place(static_cast<double>(k) / static_cast<double>(4 * n), (line + 0.5) / k_curvature_lines));
+      for (std::size_t k = 0; k <= 4 * n; ++k) at.push_back(location(static_cast<double>(k) / static_cast<double>(4 * n), (line + 0.5) / k_curvature_lines));
       points.resize(at.size());
       surface.points(at, points);
       for (std::size_t k = 0; k + 4 < at.size(); k += 4)

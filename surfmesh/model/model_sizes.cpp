@@ -93,9 +93,9 @@ Column<ComponentId, double> default_sizes(const Model& model, const ModelSizes& 
 double change_by_distance(const SurfaceMeshOptions& options) { return (options.growth - 1.0) / options.refinement; }
 
 void resolve_bands(const std::string& name, const SurfaceMeshOptions& options, std::span<const PatchSurfaceOptions> patches, FaceSizes& sizes) {
-  const BandWishes wishes = band_wishes(name, options, patches);
-  sizes.leading = wishes.leading;
-  sizes.trailing = wishes.trailing;
+  const BandTargets targets = band_targets(name, options, patches);
+  sizes.leading = targets.leading;
+  sizes.trailing = targets.trailing;
   sizes.trailing_cells = options.trailing_edge_cells;
   for (const PatchSurfaceOptions& rule : patches)
     if (matches_glob(name, rule.names) && !is_automatic(rule.trailing_edge_cells)) sizes.trailing_cells = rule.trailing_edge_cells;
@@ -202,7 +202,7 @@ double distance_between(const Box& a, const Box& b) {
 }
 
 /// A sample of an edge at which an adjacent face is narrow.
-struct NarrowPlace {
+struct NarrowLocation {
   EdgeId edge;
   std::size_t sample = 0;
   double size = 0.0;
@@ -211,8 +211,8 @@ struct NarrowPlace {
 /// Adds narrow regions. Where two edges of a face run near each other, edges must not be longer than the width of the face between them. Near a corner that
 /// both edges share, this applies only if their distance is less than k_narrow_corner times the distance from the corner: triangles fill wider corners without
 /// refinement.
-void add_narrow_places(const Model& model, FaceId f, const Column<EdgeId, EdgeSamples>& edges, const FaceSizes& sizes, double narrow,
-                       std::vector<NarrowPlace>& places) {
+void add_narrow_locations(const Model& model, FaceId f, const Column<EdgeId, EdgeSamples>& edges, const FaceSizes& sizes, double narrow,
+                          std::vector<NarrowLocation>& locations) {
   constexpr double k_narrow_corner = 0.35;
   constexpr double k_at_corner = 1e-6;  // relative to the length of the edge; at the corner itself the distance to the other edge is zero
   constexpr double k_least_of_min_edge = 0.2;
@@ -246,32 +246,32 @@ void add_narrow_places(const Model& model, FaceId f, const Column<EdgeId, EdgeSa
         for (const CornerId c : {a.start, a.end})
           if (shares(c)) from_corner = std::min(from_corner, distance(s.point, model.corners[c].point));
         if (nearest >= k_narrow_corner * from_corner || from_corner <= k_at_corner * edges[used[i]].length) continue;
-        places.push_back({used[i], n, std::max(least, narrow * nearest)});
+        locations.push_back({used[i], n, std::max(least, narrow * nearest)});
       }
     }
 }
 
 /// Returns the sizes required at the samples of an edge. They follow from the curvature of the edge and of the adjacent faces, from the length of a short edge,
 /// and from the smaller size of its faces.
-std::vector<double> sizes_along(const Model& model, const std::vector<EdgeUsePlace>& uses, const EdgeSamples& samples, const ModelSizes& sizes,
+std::vector<double> sizes_along(const Model& model, const std::vector<EdgeUseLocation>& uses, const EdgeSamples& samples, const ModelSizes& sizes,
                                 double intersection_factor) {
   double least = sizes.largest;
   CurvatureLimits limits = sizes.faces[uses.front().face].limits;
-  for (const EdgeUsePlace& place : uses) {
-    least = std::min(least, sizes.faces[place.face].max_edge);
-    limits.take_less(sizes.faces[place.face].limits);
+  for (const EdgeUseLocation& location : uses) {
+    least = std::min(least, sizes.faces[location.face].max_edge);
+    limits.take_less(sizes.faces[location.face].limits);
   }
-  const auto component_of = [&](const EdgeUsePlace& place) { return model.faces[place.face].component; };
-  if (std::any_of(uses.begin(), uses.end(), [&](const EdgeUsePlace& place) { return component_of(place) != component_of(uses.front()); }))
+  const auto component_of = [&](const EdgeUseLocation& location) { return model.faces[location.face].component; };
+  if (std::any_of(uses.begin(), uses.end(), [&](const EdgeUseLocation& location) { return component_of(location) != component_of(uses.front()); }))
     least = std::max(limits.min_edge, intersection_factor * least);
   if (samples.length < least) least = std::max(limits.min_edge, samples.length);
   std::vector<double> result;
   for (const EdgeSample& s : samples.samples) {
     double size = std::min(least, limits.size_of(s.curvature));
-    for (const EdgeUsePlace& place : uses) {
-      const EdgeUse& use = model.faces[place.face].borders[place.border][place.place];
-      const double curvature = largest_curvature(model.faces[place.face].surface->derivatives(use.parameter->point(s.t)));
-      if (std::isfinite(curvature)) size = std::min(size, sizes.faces[place.face].limits.size_of(curvature));
+    for (const EdgeUseLocation& location : uses) {
+      const EdgeUse& use = model.faces[location.face].borders[location.border][location.location];
+      const double curvature = largest_curvature(model.faces[location.face].surface->derivatives(use.parameter->point(s.t)));
+      if (std::isfinite(curvature)) size = std::min(size, sizes.faces[location.face].limits.size_of(curvature));
     }
     result.push_back(size);
   }
@@ -280,7 +280,7 @@ std::vector<double> sizes_along(const Model& model, const std::vector<EdgeUsePla
 
 /// Adds sources at the samples. If two samples are farther apart than the sizes, sources are added between them: otherwise lengths would grow from one sample
 /// and shrink towards the next.
-void add_sources_along(const Curve& curve, const std::vector<EdgeSample>& samples, const std::vector<double>& size, std::vector<SizeSite>& sources) {
+void add_sources_along(const Curve& curve, const std::vector<EdgeSample>& samples, const std::vector<double>& size, std::vector<SizePoint>& sources) {
   constexpr double k_most_between = 4096.0;
   for (std::size_t i = 0; i < samples.size(); ++i) {
     sources.push_back({samples[i].point, size[i]});
@@ -344,15 +344,15 @@ ModelSizes sizes_of_faces(const Model& model, const Column<EdgeId, EdgeSamples>&
   return sizes;
 }
 
-void add_place_sizes(const Model& model, const Column<EdgeId, EdgeSamples>& edges, const SurfaceMeshOptions& options, const SpaceSizes& asked,
+void add_local_sizes(const Model& model, const Column<EdgeId, EdgeSamples>& edges, const SurfaceMeshOptions& options, const SpaceSizes& requested,
                      ModelSizes& sizes) {
-  sizes.places = PlaceSizes(model, edges, sizes, asked, options.refinement);
-  for (const SizeSite& s : asked.samples) sizes.in_space.push_back({s.point, s.size / options.refinement});
+  sizes.local = LocalSizes(model, edges, sizes, requested, options.refinement);
+  for (const SizePoint& s : requested.samples) sizes.in_space.push_back({s.point, s.size / options.refinement});
 }
 
 void add_sources(const Model& model, const Column<EdgeId, EdgeSamples>& edges, const ModelTopology& topology, const SurfaceMeshOptions& options,
                  ModelSizes& sizes, const RunContext& context, const WingBands* bands) {
-  std::vector<std::vector<SizeSite>> of_faces(model.faces.size());
+  std::vector<std::vector<SizePoint>> of_faces(model.faces.size());
   parallel_for(
       context, model.faces.size(),
       [&](std::size_t i) {
@@ -364,22 +364,22 @@ void add_sources(const Model& model, const Column<EdgeId, EdgeSamples>& edges, c
       },
       1);
   for (const auto& list : of_faces) sizes.sources.insert(sizes.sources.end(), list.begin(), list.end());
-  std::vector<std::vector<NarrowPlace>> narrow(model.faces.size());
+  std::vector<std::vector<NarrowLocation>> narrow(model.faces.size());
   parallel_for(
       context, model.faces.size(),
       [&](std::size_t i) {
         const FaceId f(static_cast<std::uint64_t>(i));
         if (topology.is_absorbed[f] == 0 && !(bands && bands->is_strip_in_band(f)))
-          add_narrow_places(model, f, edges, sizes.faces[f], options.narrow / options.refinement, narrow[i]);
+          add_narrow_locations(model, f, edges, sizes.faces[f], options.narrow / options.refinement, narrow[i]);
       },
       1);
-  Column<EdgeId, std::vector<NarrowPlace>> narrow_of_edge(model.edges.size());
+  Column<EdgeId, std::vector<NarrowLocation>> narrow_of_edge(model.edges.size());
   for (const auto& list : narrow)
-    for (const NarrowPlace& place : list) narrow_of_edge[place.edge].push_back(place);
-  const Column<EdgeId, std::vector<EdgeUsePlace>> uses = uses_of_edges(model);
-  std::vector<std::vector<SizeSite>> of_edges(model.edges.size());
+    for (const NarrowLocation& location : list) narrow_of_edge[location.edge].push_back(location);
+  const Column<EdgeId, std::vector<EdgeUseLocation>> uses = uses_of_edges(model);
+  std::vector<std::vector<SizePoint>> of_edges(model.edges.size());
   sizes.edge_sizes.resize(model.edges.size());
-  const auto ask_along = [&](EdgeId e, std::vector<double> size, std::vector<SizeSite>& list) {
+  const auto request_along = [&](EdgeId e, std::vector<double> size, std::vector<SizePoint>& list) {
     add_sources_along(*model.edges[e].curve, edges[e].samples, size, list);
     sizes.edge_sizes[e] = std::move(size);
   };
@@ -389,9 +389,9 @@ void add_sources(const Model& model, const Column<EdgeId, EdgeSamples>& edges, c
         const EdgeId e(static_cast<std::uint64_t>(i));
         if (uses[e].empty() || edges[e].samples.empty() || topology.is_point[e] != 0) return;
         std::vector<double> size = sizes_along(model, uses[e], edges[e], sizes, options.intersection_factor);
-        for (const NarrowPlace& place : narrow_of_edge[e]) size[place.sample] = std::min(size[place.sample], place.size);
+        for (const NarrowLocation& location : narrow_of_edge[e]) size[location.sample] = std::min(size[location.sample], location.size);
         if (bands) bands->overrule(edges, uses[e], e, sizes.largest, size);
-        ask_along(e, std::move(size), of_edges[i]);
+        request_along(e, std::move(size), of_edges[i]);
       },
       16);
   for (const auto& list : of_edges) sizes.sources.insert(sizes.sources.end(), list.begin(), list.end());

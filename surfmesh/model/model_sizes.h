@@ -10,17 +10,17 @@
 #include "geom/base/glob.h"
 #include "surfmesh/face/face_sizes.h"
 #include "surfmesh/model/background_sizes.h"
-#include "surfmesh/model/band_wish.h"
+#include "surfmesh/model/band_target.h"
 #include "surfmesh/model/edge_samples.h"
 #include "surfmesh/model/face_outline.h"
-#include "surfmesh/model/place_sizes.h"
+#include "surfmesh/model/local_sizes.h"
 #include "surfmesh/model/surface_mesh.h"
 
 namespace sterna::surfmesh {
 
 struct FaceSizes {
   double max_edge = 0.0;
-  BandWish leading, trailing;
+  BandTarget leading, trailing;
   double trailing_cells = k_automatic;                 ///< number of cells across a blunt trailing edge
   double leading_factor = 1.0, trailing_factor = 1.0;  ///< edge lengths at the leading and trailing edges of a wing, relative to max_edge
   bool has_tip_strips = false;
@@ -34,9 +34,9 @@ struct ModelSizes {
   Column<FaceId, FaceSizes> faces;
   Column<EdgeId, std::vector<double>>
       edge_sizes;  ///< m, at the samples of each edge: size required by its curvature, the curvature of adjacent faces, narrow faces and its length
-  std::vector<SizeSite> sources;   ///< the same sizes as points in space, and those from the curvature of faces: locations where sizes may be small
-  std::vector<SizeSite> in_space;  ///< user sources that apply to all faces
-  PlaceSizes places;               ///< sizes that depend on the location; never more than max_edge
+  std::vector<SizePoint> sources;   ///< the same sizes as points in space, and those from the curvature of faces: locations where sizes may be small
+  std::vector<SizePoint> in_space;  ///< user sources that apply to all faces
+  LocalSizes local;                 ///< sizes that depend on the location; never more than max_edge
   /// True where curvature is ignored because the rows of a band determine the size; empty function: nowhere.
   std::function<bool(FaceId, const Point&)> is_covered;
   double growth = 0.2;   ///< change of length per distance
@@ -53,9 +53,9 @@ struct WingBands;
 void add_sources(const Model& model, const Column<EdgeId, EdgeSamples>& edges, const ModelTopology& topology, const SurfaceMeshOptions& options,
                  ModelSizes& sizes, const RunContext& context, const WingBands* bands = nullptr);
 
-/// Sets `places`: factors of wings, and sources of the user.
+/// Sets `locations`: factors of wings, and sources of the user.
 /// \pre sizes_of_faces has been called
-void add_place_sizes(const Model& model, const Column<EdgeId, EdgeSamples>& edges, const SurfaceMeshOptions& options, const SpaceSizes& asked,
+void add_local_sizes(const Model& model, const Column<EdgeId, EdgeSamples>& edges, const SurfaceMeshOptions& options, const SpaceSizes& requested,
                      ModelSizes& sizes);
 
 double distance_to_segment(const Point& p, const Point& a, const Point& b);

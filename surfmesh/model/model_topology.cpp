@@ -24,25 +24,25 @@ SameEdge find(const ModelTopology& topology, EdgeId e) {
   return same;
 }
 
-double limit_of(const ModelEdge& edge, const std::vector<EdgeUsePlace>& uses, const ModelSizes& sizes) {
+double limit_of(const ModelEdge& edge, const std::vector<EdgeUseLocation>& uses, const ModelSizes& sizes) {
   double shortest = sizes.largest;
-  for (const EdgeUsePlace& place : uses) shortest = std::min(shortest, sizes.faces[place.face].limits.min_edge);
+  for (const EdgeUseLocation& location : uses) shortest = std::min(shortest, sizes.faces[location.face].limits.min_edge);
   return std::max(k_shortest * shortest, edge.tolerance);
 }
 
-bool is_rim(const std::vector<EdgeUsePlace>& uses) { return uses.size() == 1; }
+bool is_border(const std::vector<EdgeUseLocation>& uses) { return uses.size() == 1; }
 
 /// Flags the corners at the end of an edge with only one face: in a half model they lie in the plane of symmetry, and must not move.
-Column<CornerId, std::uint8_t> corners_on_rims(const Model& model, const Column<EdgeId, std::vector<EdgeUsePlace>>& uses) {
-  Column<CornerId, std::uint8_t> on_rim(model.corners.size(), 0);
+Column<CornerId, std::uint8_t> corners_on_borders(const Model& model, const Column<EdgeId, std::vector<EdgeUseLocation>>& uses) {
+  Column<CornerId, std::uint8_t> on_border(model.corners.size(), 0);
   for (const EdgeId e : model.edges.ids())
-    if (is_rim(uses[e]) && !model.edges[e].is_degenerate()) on_rim[model.edges[e].start] = on_rim[model.edges[e].end] = 1;
-  return on_rim;
+    if (is_border(uses[e]) && !model.edges[e].is_degenerate()) on_border[model.edges[e].start] = on_border[model.edges[e].end] = 1;
+  return on_border;
 }
 
-void absorb_short_edges(const Model& model, const Column<EdgeId, EdgeSamples>& edges, const Column<EdgeId, std::vector<EdgeUsePlace>>& uses,
+void absorb_short_edges(const Model& model, const Column<EdgeId, EdgeSamples>& edges, const Column<EdgeId, std::vector<EdgeUseLocation>>& uses,
                         const ModelSizes& sizes, ModelTopology& topology, std::vector<AbsorbedPart>& absorbed) {
-  const Column<CornerId, std::uint8_t> on_rim = corners_on_rims(model, uses);
+  const Column<CornerId, std::uint8_t> on_border = corners_on_borders(model, uses);
   for (const EdgeId e : model.edges.ids()) {
     const ModelEdge& edge = model.edges[e];
     bool is_point = edge.is_degenerate();
@@ -50,14 +50,14 @@ void absorb_short_edges(const Model& model, const Column<EdgeId, EdgeSamples>& e
       is_point = edges[e].length <= limit_of(edge, uses[e], sizes);
       if (is_point) {
         std::string names;
-        for (const EdgeUsePlace& place : uses[e]) names += (names.empty() ? "" : ", ") + model.faces[place.face].name;
+        for (const EdgeUseLocation& location : uses[e]) names += (names.empty() ? "" : ", ") + model.faces[location.face].name;
         absorbed.push_back({"short edge of " + names, edges[e].samples.front().point, edges[e].length});
       }
     }
     if (!is_point) continue;
     topology.is_point[e] = 1;
     const CornerId a = find(topology.corner, edge.start), b = find(topology.corner, edge.end);
-    const bool keeps_first = on_rim[a] != on_rim[b] ? on_rim[a] != 0 : a < b;
+    const bool keeps_first = on_border[a] != on_border[b] ? on_border[a] != 0 : a < b;
     (keeps_first ? topology.corner[b] : topology.corner[a]) = keeps_first ? a : b;
   }
   for (const CornerId c : model.corners.ids()) topology.corner[c] = find(topology.corner, c);
@@ -78,8 +78,8 @@ double distance_of(const EdgeSamples& a, const EdgeSamples& b, double limit) {
 
 /// Absorbs faces that are a line or a point. Every edge of such a face is traversed in both directions, and the face has no area. (A face with a seam also
 /// traverses the seam in both directions, but has an area.)
-void absorb_lines(const Model& model, const Column<EdgeId, EdgeSamples>& edges, const Column<EdgeId, std::vector<EdgeUsePlace>>& uses, const ModelSizes& sizes,
-                  ModelTopology& topology, std::vector<AbsorbedPart>& absorbed) {
+void absorb_lines(const Model& model, const Column<EdgeId, EdgeSamples>& edges, const Column<EdgeId, std::vector<EdgeUseLocation>>& uses,
+                  const ModelSizes& sizes, ModelTopology& topology, std::vector<AbsorbedPart>& absorbed) {
   for (const FaceId f : model.faces.ids()) {
     std::map<EdgeId, int> balance;
     double length = 0.0, limit = 0.0;
@@ -103,8 +103,8 @@ void absorb_lines(const Model& model, const Column<EdgeId, EdgeSamples>& edges, 
 }
 
 /// Absorbs faces whose border consists of two edges that coincide within the limit.
-void absorb_strips(const Model& model, const Column<EdgeId, EdgeSamples>& edges, const Column<EdgeId, std::vector<EdgeUsePlace>>& uses, const ModelSizes& sizes,
-                   ModelTopology& topology, std::vector<AbsorbedPart>& absorbed) {
+void absorb_strips(const Model& model, const Column<EdgeId, EdgeSamples>& edges, const Column<EdgeId, std::vector<EdgeUseLocation>>& uses,
+                   const ModelSizes& sizes, ModelTopology& topology, std::vector<AbsorbedPart>& absorbed) {
   for (const FaceId f : model.faces.ids()) {
     std::vector<EdgeId> left;
     for (const Border& border : model.faces[f].borders)
@@ -126,7 +126,7 @@ void absorb_strips(const Model& model, const Column<EdgeId, EdgeSamples>& edges,
     const double width = std::max(distance_of(edges[a.edge], edges[b.edge], limit), distance_of(edges[b.edge], edges[a.edge], limit));
     if (width > limit) continue;
     topology.is_absorbed[f] = 1;
-    const bool keeps_a = is_rim(uses[a.edge]) != is_rim(uses[b.edge]) ? is_rim(uses[a.edge]) : a.edge < b.edge;
+    const bool keeps_a = is_border(uses[a.edge]) != is_border(uses[b.edge]) ? is_border(uses[a.edge]) : a.edge < b.edge;
     const EdgeId kept = keeps_a ? a.edge : b.edge, other = keeps_a ? b.edge : a.edge;
     topology.same_as[other] = {kept, is_against};
     absorbed.push_back({"narrow face " + model.faces[f].name, edges[kept].samples[edges[kept].samples.size() / 2].point, width});
@@ -141,7 +141,7 @@ ModelTopology absorb_small_parts(const Model& model, const Column<EdgeId, EdgeSa
                          Column<EdgeId, SameEdge>(model.edges.size()), Column<FaceId, std::uint8_t>(model.faces.size(), 0)};
   for (const CornerId c : model.corners.ids()) topology.corner[c] = c;
   for (const EdgeId e : model.edges.ids()) topology.same_as[e] = {e, false};
-  const Column<EdgeId, std::vector<EdgeUsePlace>> uses = uses_of_edges(model);
+  const Column<EdgeId, std::vector<EdgeUseLocation>> uses = uses_of_edges(model);
   absorb_short_edges(model, edges, uses, sizes, topology, absorbed);
   absorb_strips(model, edges, uses, sizes, topology, absorbed);
   absorb_lines(model, edges, uses, sizes, topology, absorbed);

@@ -20,21 +20,21 @@ std::pair<VertexId, VertexId> ordered(VertexId a, VertexId b) { return {std::min
 }  // namespace
 
 ModelWall::ModelWall(Model model, const SurfaceMesh& mesh)
-    : ModelWall([model = std::move(model)] { return model; }, WallPlaces{mesh.places, mesh.edge_places, mesh.corner_vertices, mesh.triangle_face},
+    : ModelWall([model = std::move(model)] { return model; }, WallLocations{mesh.locations, mesh.edge_locations, mesh.corner_vertices, mesh.triangle_face},
                 mesh.mesh.triangles) {}
 
-ModelWall::ModelWall(std::function<Model()> model, WallPlaces places, Column<TriangleId, TriangleVertices> triangles)
-    : model_(std::move(model)), places_(std::move(places)), triangles_(std::move(triangles)) {}
+ModelWall::ModelWall(std::function<Model()> model, WallLocations locations, Column<TriangleId, TriangleVertices> triangles)
+    : model_(std::move(model)), locations_(std::move(locations)), triangles_(std::move(triangles)) {}
 
 ModelWall::Knowledge& ModelWall::knowledge() const {
   std::call_once(once_, [&] {
     Model model = model_();
     std::vector<Segment> segments = find_segments(model);
     const std::size_t n_faces = model.faces.size();
-    Column<EdgeId, std::vector<EdgeUsePlace>> uses = uses_of_edges(model);
-    Column<VertexId, CornerId> corner_of(places_.places.size());
-    for (const CornerId c : places_.corner_vertices.ids())
-      if (const VertexId v = places_.corner_vertices[c]; v.is_valid()) corner_of[v] = c;
+    Column<EdgeId, std::vector<EdgeUseLocation>> uses = uses_of_edges(model);
+    Column<VertexId, CornerId> corner_of(locations_.locations.size());
+    for (const CornerId c : locations_.corner_vertices.ids())
+      if (const VertexId v = locations_.corner_vertices[c]; v.is_valid()) corner_of[v] = c;
     knowledge_ = std::make_unique<Knowledge>(Knowledge{std::move(model), std::move(segments), std::vector<LazyProjector>(n_faces),
                                                        std::vector<LazyRegion>(n_faces), std::move(uses), std::move(corner_of)});
   });
@@ -44,13 +44,13 @@ ModelWall::Knowledge& ModelWall::knowledge() const {
 std::vector<ModelWall::Segment> ModelWall::find_segments(const Model& model) const {
   std::vector<Segment> segments;
   std::vector<CutVertex> cuts;
-  for (const VertexId v : places_.edge_places.ids())
-    if (const EdgePlace& place = places_.edge_places[v]; place.edge.is_valid()) cuts.push_back({place.edge, place.t, v});
+  for (const VertexId v : locations_.edge_locations.ids())
+    if (const EdgeLocation& location = locations_.edge_locations[v]; location.edge.is_valid()) cuts.push_back({location.edge, location.t, v});
   std::sort(cuts.begin(), cuts.end(), [](const CutVertex& a, const CutVertex& b) { return std::pair(a.edge, a.t) < std::pair(b.edge, b.t); });
   std::size_t next = 0;
   for (const EdgeId e : model.edges.ids()) {
     const ModelEdge& edge = model.edges[e];
-    CutVertex last{e, edge.range.from, places_.corner_vertices[edge.start]};
+    CutVertex last{e, edge.range.from, locations_.corner_vertices[edge.start]};
     const auto go_to = [&](const CutVertex& to) {
       if (last.vertex.is_valid() && to.vertex.is_valid() && last.vertex != to.vertex) {
         const bool is_up = last.vertex < to.vertex;
@@ -59,7 +59,7 @@ std::vector<ModelWall::Segment> ModelWall::find_segments(const Model& model) con
       last = to;
     };
     for (; next < cuts.size() && cuts[next].edge == e; ++next) go_to(cuts[next]);
-    if (!edge.is_degenerate()) go_to({e, edge.range.to, places_.corner_vertices[edge.end]});
+    if (!edge.is_degenerate()) go_to({e, edge.range.to, locations_.corner_vertices[edge.end]});
   }
   std::sort(segments.begin(), segments.end(),
             [](const Segment& a, const Segment& b) { return std::tuple(a.low, a.high, a.edge) < std::tuple(b.low, b.high, b.edge); });
@@ -67,7 +67,7 @@ std::vector<ModelWall::Segment> ModelWall::find_segments(const Model& model) con
 }
 
 ModelWall::ModelWall(const ModelWall& other, const Transform& motion)
-    : ModelWall([make = other.model_, motion] { return transformed(make(), motion); }, other.places_, other.triangles_) {}
+    : ModelWall([make = other.model_, motion] { return transformed(make(), motion); }, other.locations_, other.triangles_) {}
 
 const ModelWall::Segment* ModelWall::segment_of(const Knowledge& known, VertexId a, VertexId b) {
   const auto key = ordered(a, b);
@@ -95,13 +95,13 @@ Point ModelWall::nearest(const Point& p, TriangleId triangle, const std::array<d
     return CurveProjector(known.model.edges[segment->edge].curve, range).seeded(p, segment->t_low + share * (segment->t_high - segment->t_low)).point;
   }
   // A corner with a known (u, v) on this face is used as start value. If there are several, the corner nearest to the point is used.
-  const FaceId f = places_.triangle_face[triangle];
+  const FaceId f = locations_.triangle_face[triangle];
   double best = 0.0;
   Uv seed{};
   for (std::size_t k = 0; k < 3; ++k)
-    if (places_.places[v[k]].face == f && weights[k] > best) {
+    if (locations_.locations[v[k]].face == f && weights[k] > best) {
       best = weights[k];
-      seed = places_.places[v[k]].at;
+      seed = locations_.locations[v[k]].at;
     }
   const SurfaceProjector& projector = projector_of(known, f);
   return (best > 0.0 ? projector.seeded(p, seed) : projector.nearest(p)).point;

@@ -20,15 +20,15 @@
 namespace sterna::surfmesh {
 
 /// Model locations of the vertices and triangles of a surface mesh, copied from SurfaceMesh.
-struct WallPlaces {
-  Column<VertexId, VertexPlace> places;
-  Column<VertexId, EdgePlace> edge_places;
+struct WallLocations {
+  Column<VertexId, VertexLocation> locations;
+  Column<VertexId, EdgeLocation> edge_locations;
   Column<CornerId, VertexId> corner_vertices;
   Column<TriangleId, FaceId> triangle_face;
 };
 
 /// The nearest location of a face near a given point.
-struct ModelFoot {
+struct ModelProjection {
   FaceId face;
   Uv at;
   Point point;
@@ -49,7 +49,7 @@ class ModelWall {
   ModelWall(Model model, const SurfaceMesh& mesh);
   /// Defers the construction of the model until it is first needed, which is seldom. The first thread that needs the model constructs it while other threads
   /// wait.
-  ModelWall(std::function<Model()> model, WallPlaces places, Column<TriangleId, TriangleVertices> triangles);
+  ModelWall(std::function<Model()> model, WallLocations locations, Column<TriangleId, TriangleVertices> triangles);
 
   /// Creates the same wall at another location.
   /// \pre `motion` is a rotation and a shift
@@ -61,21 +61,21 @@ class ModelWall {
 
   /// Returns the nearest point on the surface of the triangle's face, searched near the triangle, and whether the point belongs to the face. Thread-safe. \p
   /// weights barycentric coordinates on the triangle
-  ModelFoot foot(const Point& p, TriangleId triangle, const std::array<double, 3>& weights) const;
+  ModelProjection projection(const Point& p, TriangleId triangle, const std::array<double, 3>& weights) const;
   /// Returns the nearest point on the model edge along the side of the triangle opposite to corner `k`, as a location on the triangle's face. Returns nothing
   /// if this side lies inside the face. Thread-safe.
-  std::optional<ModelFoot> edge_foot(const Point& p, TriangleId triangle, std::size_t k) const;
+  std::optional<ModelProjection> edge_projection(const Point& p, TriangleId triangle, std::size_t k) const;
   /// Returns true if a vertex is inside the triangle's face, not on its border.
   bool is_inner(TriangleId triangle, VertexId v) const;
   /// Returns the location of the vertex on the model: on its edge if it has one, else on its face; nothing if unknown. Thread-safe.
-  std::optional<Point> place_of(VertexId v) const;
+  std::optional<Point> location_of(VertexId v) const;
   /// Returns nothing if the surface has no normal at this location or close to it. Thread-safe.
   std::optional<ModelNormal> normal(FaceId face, Uv at) const;
   /// Returns the face's name for messages.
-  /// \pre foot.face is valid
+  /// \pre projection.face is valid
   const std::string& name_of(FaceId face) const;
 
-  const WallPlaces& places() const { return places_; }
+  const WallLocations& locations() const { return locations_; }
   const Column<TriangleId, TriangleVertices>& triangles() const { return triangles_; }
 
  private:
@@ -100,7 +100,7 @@ class ModelWall {
     std::vector<Segment> segments;  ///< sorted by low, then high
     std::vector<LazyProjector> projectors;
     std::vector<LazyRegion> regions;
-    Column<EdgeId, std::vector<EdgeUsePlace>> uses;
+    Column<EdgeId, std::vector<EdgeUseLocation>> uses;
     Column<VertexId, CornerId> corner_of;  ///< invalid: the vertex is not on a corner of the model
   };
   Knowledge& knowledge() const;
@@ -109,10 +109,10 @@ class ModelWall {
   static const SurfaceProjector& projector_of(Knowledge& known, FaceId f);
   static const FaceRegion& region_of(Knowledge& known, FaceId f);
   /// Returns the possible (u, v) of the vertex in the face: several on a seam, none for a corner without data for this face.
-  std::vector<Uv> places_in(const Knowledge& known, FaceId f, VertexId v) const;
+  std::vector<Uv> locations_in(const Knowledge& known, FaceId f, VertexId v) const;
 
   std::function<Model()> model_;
-  WallPlaces places_;
+  WallLocations locations_;
   Column<TriangleId, TriangleVertices> triangles_;
   mutable std::once_flag once_;
   mutable std::unique_ptr<Knowledge> knowledge_;

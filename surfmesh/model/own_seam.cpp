@@ -17,11 +17,11 @@ constexpr std::size_t k_seam_samples = 128;
 /// Largest number of locations at which a start of the seam is tried.
 constexpr std::size_t k_most_starts = 64;
 
-[[noreturn]] void fail(const Surface& surface, const std::string& problem, const Point& place) {
+[[noreturn]] void fail(const Surface& surface, const std::string& problem, const Point& location) {
   throw Error({.code = ErrorCode::geometry_failed,
                .attempted = "meshing a face",
                .problem = problem + " (" + surface.kind() + ")",
-               .places = {{place, "border of the face"}},
+               .locations = {{location, "border of the face"}},
                .hint = "split the face along a line between its borders in CAD"});
 }
 
@@ -82,9 +82,9 @@ std::vector<Uv> cut_seam(const Surface& surface, const std::function<double(Uv, 
   std::vector<Uv> cuts;
   std::size_t i = 0;
   for (std::size_t k = 1; k < n; ++k) {
-    const double wanted = metric.back() * static_cast<double>(k) / static_cast<double>(n);
-    while (i + 2 < metric.size() && metric[i + 1] < wanted) ++i;
-    const double step = metric[i + 1] - metric[i], share = step > 0.0 ? (wanted - metric[i]) / step : 0.5;
+    const double target = metric.back() * static_cast<double>(k) / static_cast<double>(n);
+    while (i + 2 < metric.size() && metric[i + 1] < target) ++i;
+    const double step = metric[i + 1] - metric[i], share = step > 0.0 ? (target - metric[i]) / step : 0.5;
     cuts.push_back(from + (static_cast<double>(i) + share) / k_seam_samples * (to - from));
   }
   return cuts;
@@ -166,10 +166,11 @@ LoopsAround loops_around(const Surface& surface, const std::vector<Loop>& loops,
   const Loop& first = loops[around[0]];
   const Loop* second = around.size() > 1 ? &loops[around[1]] : nullptr;
   const Uv period = first.around;
-  const Point place = first.points.front().point;
+  const Point location = first.points.front().point;
   if (around.size() > 2 || (period.u != 0.0 && period.v != 0.0))
-    fail(surface, "the borders run around the face " + std::to_string(around.size()) + " times, or around both periods of the surface", place);
-  if (second != nullptr && !(second->around + period == Uv{})) fail(surface, "two borders run around the period of the surface in the same direction", place);
+    fail(surface, "the borders run around the face " + std::to_string(around.size()) + " times, or around both periods of the surface", location);
+  if (second != nullptr && !(second->around + period == Uv{}))
+    fail(surface, "two borders run around the period of the surface in the same direction", location);
   // The face lies to the left of the loop: at greater v of a loop along +u, at smaller u of a loop along +v.
   const ParameterBox domain = surface.domain();
   const double pole = period.u != 0.0 ? (period.u > 0.0 ? domain.v.to : domain.v.from) : (period.v > 0.0 ? domain.u.from : domain.u.to);

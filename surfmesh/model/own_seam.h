@@ -4,7 +4,7 @@
 #include <functional>
 #include <vector>
 
-#include "surfmesh/face/face_mesh.h"
+#include "surfmesh/face/sized_face_mesh.h"
 #include "surfmesh/model/face_outline.h"
 
 namespace sterna::surfmesh {

@@ -60,7 +60,7 @@ std::optional<double> hit(const Point& p, const Vec3& way, double reach, const N
 }
 
 /// Adds sources of the same size at points all over a facet, spaced by about that size.
-void add_over(const NearFacet& facet, const SizeSite& source, std::vector<SizeSite>& sources) {
+void add_over(const NearFacet& facet, const SizePoint& source, std::vector<SizePoint>& sources) {
   constexpr double k_most = 32.0;
   const double longest = std::max({distance(facet.p[0], facet.p[1]), distance(facet.p[1], facet.p[2]), distance(facet.p[2], facet.p[0])});
   const double n = std::clamp(std::ceil(longest / source.size), 1.0, k_most);
@@ -82,7 +82,7 @@ void add_gap_sources(const Model& model, const SurfaceSizes& field, const Surfac
   const BoxTree tree(boxes, context);
   struct Found {
     FaceId other;
-    SizeSite own, opposite;
+    SizePoint own, opposite;
   };
   std::vector<std::vector<Found>> found(facets.size());
   // The size required by a gap is share * width. Gaps are ignored if that size exceeds the largest edge.
@@ -119,14 +119,14 @@ void add_gap_sources(const Model& model, const SurfaceSizes& field, const Surfac
         }
       },
       256);
-  Column<FaceId, std::vector<SizeSite>> sources(model.faces.size());
+  Column<FaceId, std::vector<SizePoint>> sources(model.faces.size());
   for (std::size_t i = 0; i < facets.size(); ++i)
     for (const Found& f : found[i]) {
       add_over(facets[i], f.own, sources[facets[i].face]);
       sources[f.other].push_back(f.opposite);
     }
   for (const auto& list : sources) sizes.sources.insert(sizes.sources.end(), list.begin(), list.end());
-  for (const FaceId f : model.faces.ids()) sizes.places.set_sources(f, sources[f], context);
+  for (const FaceId f : model.faces.ids()) sizes.local.set_sources(f, sources[f], context);
 }
 
 }  // namespace sterna::surfmesh

@@ -49,7 +49,7 @@ Column<VertexId, VertexId> same_points(const TriMesh& to, const TriMesh& from, c
 }  // namespace
 
 ReplacedFaces find_replaced_faces(const ModelWall& model, const TriMesh& made, const TriMesh& repaired, const RunContext& context) {
-  const Column<TriangleId, FaceId>& face_of = model.places().triangle_face;
+  const Column<TriangleId, FaceId>& face_of = model.locations().triangle_face;
   const Column<VertexId, VertexId> same = same_points(repaired, made, context), own = same_points(made, made, context);
   std::vector<std::pair<Corners, TriangleId>> triangles;
   triangles.reserve(made.n_triangles());
@@ -80,7 +80,7 @@ ReplacedFaces find_replaced_faces(const ModelWall& model, const TriMesh& made, c
   struct Finding {
     FaceId face;
     double distance = -1.0;
-    Point place{};
+    Point location{};
   };
   std::vector<Finding> findings(fresh.size());
   parallel_for(
@@ -94,7 +94,7 @@ ReplacedFaces find_replaced_faces(const ModelWall& model, const TriMesh& made, c
           const double d = from_model(p);
           if (d <= findings[i].distance) return;
           findings[i].distance = d;
-          findings[i].place = p;
+          findings[i].location = p;
         };
         look(middle);
         for (const VertexId v : repaired.triangles[fresh[i]])
@@ -108,7 +108,7 @@ ReplacedFaces find_replaced_faces(const ModelWall& model, const TriMesh& made, c
     ++face.n_new;
     if (finding.distance <= face.distance) continue;
     face.distance = finding.distance;
-    face.place = finding.place;
+    face.location = finding.location;
   }
   std::map<FaceId, std::int64_t> n_before;
   for (const TriangleId t : made.triangles.ids()) {
@@ -134,7 +134,7 @@ std::vector<std::string> to_lines(const std::vector<ReplacedFace>& faces, std::s
     if (face.n_new == 0) line += "removed";
     else
       line += (face.n_before == 0 ? "" : "replaced by ") + std::to_string(face.n_new) + (face.n_before == 0 ? " triangles" : "") + ", at most " +
-              number_text(face.distance, k_digits) + " m from the model, at " + format_point(face.place);
+              number_text(face.distance, k_digits) + " m from the model, at " + format_point(face.location);
     lines.push_back(std::move(line));
   }
   return lines;

@@ -20,7 +20,7 @@ struct ReplacedFace {
   std::int64_t n_new = 0;     ///< triangles made instead; each is counted at the nearest face
   double distance = 0.0;  ///< m: largest distance from the model of the middles and new corners of the new triangles (sampled if there are more than 20 000);
                           ///< fillings of holes do not lie on the model
-  Point place{};          ///< location of this distance
+  Point location{};       ///< location of this distance
 };
 
 struct ReplacedFaces {

@@ -20,10 +20,10 @@ struct SizedModel {
 /// Samples the edges and computes the sizes required by options, curvature and locations.
 /// \throws Error(bad_argument) for patch rules that match no patch, and for chord errors out of reach
 SizedModel sized_model(Borrowed<const Model> model, Borrowed<const SurfaceMeshOptions> options, std::span<const PatchSurfaceOptions> patches,
-                       const SpaceSizes& asked, const RunContext& context);
+                       const SpaceSizes& requested, const RunContext& context);
 
 /// Adds the sizes of narrow regions and, if requested, of gaps.
 /// \pre small parts have been absorbed
-void add_narrow_places(SizedModel& sized, const WingBands* bands, const RunContext& context);
+void add_narrow_locations(SizedModel& sized, const WingBands* bands, const RunContext& context);
 
 }  // namespace sterna::surfmesh

@@ -72,16 +72,16 @@ struct FaceAngles {
   std::vector<BorderEdge> border;
 };
 
-void keep_larger(SmoothAngle& best, double angle, const Point& place) {
+void keep_larger(SmoothAngle& best, double angle, const Point& location) {
   if (angle <= best.angle) return;
   best.angle = angle;
-  best.place = place;
+  best.location = location;
 }
 
-void keep_larger_outside_spots(SmoothAngle& best, double angle, const Point& place) {
+void keep_larger_outside_spots(SmoothAngle& best, double angle, const Point& location) {
   if (angle <= best.angle_outside_spots) return;
   best.angle_outside_spots = angle;
-  best.place_outside_spots = place;
+  best.place_outside_spots = location;
 }
 
 FaceAngles measure_face(const ModelFace& model_face, FaceId f, const MeshedFace& face) {
@@ -199,7 +199,7 @@ SmoothAngle measure_smooth_angle(const Model& model, const Column<FaceId, Meshed
   std::vector<BorderEdge> border;
   std::vector<SharpEdge> sharp;
   for (const FaceAngles& face : angles) {
-    keep_larger(best, face.inner.angle, face.inner.place);
+    keep_larger(best, face.inner.angle, face.inner.location);
     keep_larger_outside_spots(best, face.inner.angle_outside_spots, face.inner.place_outside_spots);
     sharp.insert(sharp.end(), face.sharp.begin(), face.sharp.end());
     border.insert(border.end(), face.border.begin(), face.border.end());

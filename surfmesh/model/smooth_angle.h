@@ -9,7 +9,7 @@ namespace sterna::surfmesh {
 /// normals of both faces agree (within 5 degrees at both ends). Creases of the model do not count.
 struct SmoothAngle {
   double angle = 0.0;  ///< rad
-  Point place{};       ///< middle of that edge
+  Point location{};    ///< middle of that edge
   /// The largest such angle without spots. A spot is a group of connected edges that turn by more than 45 degrees, extend over at most 25 edge lengths, and
   /// whose triangles follow the surface. The radius of the model is small compared to the edges there (points of cones, round tips above thin trailing edges).
   /// Spots of a face that together extend over more than 50 edges count.

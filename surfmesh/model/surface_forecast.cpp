@@ -94,7 +94,7 @@ double cuts_of(const SizedModel& all, const SurfaceSizes& field, EdgeId e) {
 struct LeastEdge {
   EdgeId edge;
   double size = 1e300, curvature = 0.0, t = 0.0;
-  Point place;
+  Point location;
 };
 
 LeastEdge least_edge_of(const SizedModel& all, FaceId f) {
@@ -114,36 +114,36 @@ LeastEdge least_edge_of(const SizedModel& all, FaceId f) {
 std::string metres(double value) { return number_text(value, 3) + " m"; }
 
 void explain(const SizedModel& all, const FaceSum& sum, FaceForecast& forecast) {
-  const FaceSizes& wanted = all.sizes.faces[forecast.face];
+  const FaceSizes& target = all.sizes.faces[forecast.face];
   const auto blame = [&](std::string rule, std::string advice) {
     forecast.rule = std::move(rule);
     forecast.advice = std::move(advice);
   };
-  const double by_longest = sum.area / (k_equilateral_area * wanted.max_edge * wanted.max_edge), goal = k_cause * forecast.n_triangles;
-  forecast.least_edge = wanted.max_edge;
-  wanted.curvature->for_each_inside([&](const Point& p, double size) {
-    if (size >= forecast.least_edge && forecast.least_edge < wanted.max_edge) return;
+  const double by_longest = sum.area / (k_equilateral_area * target.max_edge * target.max_edge), goal = k_cause * forecast.n_triangles;
+  forecast.least_edge = target.max_edge;
+  target.curvature->for_each_inside([&](const Point& p, double size) {
+    if (size >= forecast.least_edge && forecast.least_edge < target.max_edge) return;
     if (size < forecast.least_edge) forecast.least_edge = size;
-    forecast.place = p;
+    forecast.location = p;
   });
-  const std::string curvature = "curvature: the surface turns along an edge by at most " + number_text(wanted.limits.angle * k_degrees, 3) + " degrees";
+  const std::string curvature = "curvature: the surface turns along an edge by at most " + number_text(target.limits.angle * k_degrees, 3) + " degrees";
   const std::string less_curvature = "a larger curvature_angle or min_edge";
-  if (by_longest >= goal) return blame("max_edge = " + metres(wanted.max_edge), "a larger max_edge");
+  if (by_longest >= goal) return blame("max_edge = " + metres(target.max_edge), "a larger max_edge");
   if (estimated_triangles(all.sizes, forecast.face) >= goal) return blame(curvature, less_curvature);
   const LeastEdge least = least_edge_of(all, forecast.face);
-  if (!(least.size < wanted.max_edge / k_same_size))
+  if (!(least.size < target.max_edge / k_same_size))
     return blame("short edges beside the face or sources, from which edge lengths grow by at most a factor of " + number_text(1.0 + all.sizes.growth, 3),
                  "a larger growth");
-  forecast.place = least.place;
+  forecast.location = least.location;
   forecast.least_edge = std::min(forecast.least_edge, least.size);
-  if (all.edges[least.edge].length < wanted.max_edge && least.size * k_same_size >= all.edges[least.edge].length)
+  if (all.edges[least.edge].length < target.max_edge && least.size * k_same_size >= all.edges[least.edge].length)
     return blame("an edge of the face that is " + metres(all.edges[least.edge].length) + " long", "a larger min_edge");
-  double by_curvature = wanted.limits.size_of(least.curvature);
+  double by_curvature = target.limits.size_of(least.curvature);
   for (const Border& border : all.model.faces[forecast.face].borders)
     for (const EdgeUse& use : border)
       if (use.edge == least.edge)
         by_curvature = std::min(by_curvature,
-                                wanted.limits.size_of(largest_curvature(all.model.faces[forecast.face].surface->derivatives(use.parameter->point(least.t)))));
+                                target.limits.size_of(largest_curvature(all.model.faces[forecast.face].surface->derivatives(use.parameter->point(least.t)))));
   if (by_curvature <= k_same_size * least.size) return blame(curvature, less_curvature);
   return blame("narrow region: the face or its neighbour is about " + metres(least.size * all.options.refinement / all.options.narrow) + " wide there",
                "a larger min_edge or narrow");
@@ -151,9 +151,9 @@ void explain(const SizedModel& all, const FaceSum& sum, FaceForecast& forecast) 
 
 }  // namespace
 
-SurfaceForecast forecast_surface(const Model& model, const SurfaceMeshOptions& options, std::span<const PatchSurfaceOptions> patches, const SpaceSizes& asked,
-                                 const RunContext& context) {
-  SizedModel all = sized_model(model, options, patches, asked, context);
+SurfaceForecast forecast_surface(const Model& model, const SurfaceMeshOptions& options, std::span<const PatchSurfaceOptions> patches,
+                                 const SpaceSizes& requested, const RunContext& context) {
+  SizedModel all = sized_model(model, options, patches, requested, context);
   std::vector<FaceSum> sums(model.faces.size());
   double rough = 0.0;
   for (const FaceId f : model.faces.ids()) {
@@ -163,7 +163,7 @@ SurfaceForecast forecast_surface(const Model& model, const SurfaceMeshOptions& o
   if (rough < k_rough) {
     std::vector<AbsorbedPart> absorbed;
     all.topology = absorb_small_parts(model, all.edges, all.sizes, absorbed);
-    add_narrow_places(all, nullptr, context);
+    add_narrow_locations(all, nullptr, context);
     const SurfaceSizes field(model, all.edges, all.topology, all.sizes, {}, context, true);
     const auto of_face = [&](std::size_t i) {
       const FaceId f(static_cast<std::uint64_t>(i));

@@ -71,11 +71,11 @@ struct SpaceSizes {
   std::function<double(const Point&, double)> regions;
   /// Returns the target length in m, > 0; called only by the thread that called mesh_model; may be discontinuous.
   std::function<double(const Point&)> function;
-  std::vector<SizeSite> samples;  ///< targets at single points; the smallest applies
+  std::vector<SizePoint> samples;  ///< targets at single points; the smallest applies
 };
 
 /// Location of a vertex on an edge of the model. Without edge the vertex is a corner or lies inside a face.
-struct EdgePlace {
+struct EdgeLocation {
   EdgeId edge;
   double t = 0.0;
 };
@@ -87,10 +87,10 @@ struct FaceMeshSummary {
   std::int64_t n_band = 0;  ///< number of these triangles in bands and strips; the angles below exclude them
   double min_angle = 0.0;   ///< rad
   double max_angle = 0.0;
-  Point worst_place{};                ///< location of the smallest angle
+  Point worst_location{};             ///< location of the smallest angle
   std::int64_t n_outside_20_130 = 0;  ///< number of triangles with an angle outside [20, 130] degrees
   double max_normal_angle = 0.0;      ///< rad: largest angle between a triangle and the surface at one of its corners
-  Point normal_place{};
+  Point normal_location{};
   double curvature_angle = 0.0;  ///< rad: target for max_normal_angle
   double area = 0.0;             ///< m^2, area of its triangles
   double area_above = 0.0;       ///< m^2, area of the triangles whose normals deviate by more than curvature_angle
@@ -99,7 +99,7 @@ struct FaceMeshSummary {
 /// An entity of the model that the mesh does not resolve.
 struct AbsorbedPart {
   std::string what;  ///< such as "edge shorter than its tolerance", with the names of faces
-  Point place;
+  Point location;
   double size = 0.0;  ///< metres
 };
 
@@ -107,7 +107,7 @@ struct AbsorbedPart {
 struct CrossingFaces {
   FaceId first, second;
   std::int64_t n_pairs = 0;
-  Point place{};             ///< location of the first pair
+  Point location{};          ///< location of the first pair
   bool is_one_part = false;  ///< both faces belong to one solid, or to one open part
   bool is_closed = false;    ///< the parts of both faces are closed
 };
@@ -118,7 +118,7 @@ struct LooseEdge {
   FaceId face;
   double distance = 0.0;   ///< m, largest distance of its vertices
   double tolerance = 0.0;  ///< m: largest of the tolerances of the edge, its corners and the face
-  Point place{};
+  Point location{};
 };
 
 /// Bands along leading and trailing edges, and strips on the bases of blunt trailing edges.
@@ -143,12 +143,12 @@ struct SurfaceMeshReport {
   double share_20_130 = 1.0;                   ///< fraction of the triangles whose angles are all within [20, 130] degrees
   FaceId worst_face;                           ///< face with the smallest angle min_angle
   double max_edge_distance = 0.0;              ///< metres: largest distance of a vertex on an edge from an adjacent face
-  Point edge_distance_place{};
+  Point edge_distance_location{};
   std::vector<LooseEdge> loose_edges;  ///< sorted by falling ratio of distance to tolerance
   FaceId worst_normal_face;            ///< face whose normals exceed the curvature angle by most; invalid if none does
   double share_normals = 1.0;     ///< fraction of the area covered by triangles that are within the curvature angle of the surface's normals at their corners
   double max_smooth_angle = 0.0;  ///< rad: largest turn between two triangles where the model has no crease; a feature angle must exceed it
-  Point smooth_angle_place{};
+  Point smooth_angle_location{};
   std::int64_t n_free_edges = 0;         ///< number of free edges of triangles, which lie along free edges of the model
   int n_rounds = 1;                      ///< rounds of meshing; above 1 if regions had to be refined to become valid
   std::int64_t n_crossings = 0;          ///< pairs of triangles that cross and could not be separated by refinement
@@ -159,8 +159,8 @@ struct SurfaceMeshReport {
 /// A surface mesh with the model locations of its vertices.
 struct SurfaceMesh {
   TriMesh mesh;  ///< one patch per face name. Vertices: corners, then edges, then inner ones; if parts were joined, part by part (join_parts.h)
-  Column<VertexId, VertexPlace> places;  ///< a vertex on an edge has its place on the first face that uses it
-  Column<VertexId, EdgePlace> edge_places;
+  Column<VertexId, VertexLocation> locations;  ///< a vertex on an edge has its place on the first face that uses it
+  Column<VertexId, EdgeLocation> edge_locations;
   Column<CornerId, VertexId> corner_vertices;  ///< vertex of each corner of the model; invalid if no triangle has it
   Column<TriangleId, FaceId> triangle_face;
   Column<TriangleId, std::uint8_t> is_band;  ///< true for triangles laid in rows, possibly stretched
@@ -174,7 +174,7 @@ struct SurfaceMesh {
 /// areas predict it; Error(non_manifold_surface) if triangles of faces do not join; Error(self_intersection) for crossing triangles that refinement does not
 /// separate, unless options.crossings allows them
 SurfaceMesh mesh_model(const Model& model, const SurfaceMeshOptions& options, std::span<const PatchSurfaceOptions> patches, const RunContext& context);
-SurfaceMesh mesh_model(const Model& model, const SurfaceMeshOptions& options, std::span<const PatchSurfaceOptions> patches, const SpaceSizes& asked,
+SurfaceMesh mesh_model(const Model& model, const SurfaceMeshOptions& options, std::span<const PatchSurfaceOptions> patches, const SpaceSizes& requested,
                        const RunContext& context);
 
 /// Returns several human-readable lines.

@@ -30,7 +30,7 @@ double distance_along(const Point& p, const Point& a, const Point& b, double& sh
 struct Stop {
   double t = 0.0;
   Point point;
-  double asked = 0.0;
+  double requested = 0.0;
   std::uint32_t node = 0;
   std::array<Vec3, 2> normals{};  ///< normals of the two faces of its edge; zero if there are more than two faces, or none
 };
@@ -52,7 +52,7 @@ struct SurfaceSizes::Builder {
   /// Runs the loop in parallel if user functions may be called from any thread.
   template <class Body>
   void for_each(std::size_t n, std::size_t chunk, const Body& body) const {
-    if (!sizes.places.is_serial()) return parallel_for(context, n, body, chunk);
+    if (!sizes.local.is_serial()) return parallel_for(context, n, body, chunk);
     for (std::size_t i = 0; i < n; ++i) {
       context.check_stop();
       body(i);
@@ -60,7 +60,7 @@ struct SurfaceSizes::Builder {
   }
 
   void run() {
-    const Column<EdgeId, std::vector<EdgeUsePlace>> uses = uses_of_edges(model);
+    const Column<EdgeId, std::vector<EdgeUseLocation>> uses = uses_of_edges(model);
     stops.resize(model.edges.size());
     for_each(model.edges.size(), 4, [&](std::size_t i) {
       const EdgeId e(static_cast<std::uint64_t>(i));
@@ -85,24 +85,24 @@ struct SurfaceSizes::Builder {
 
   /// Places stops at the samples of the edge. Samples nearer to each other than the sizes require are left out; between samples farther apart, intermediate
   /// stops are added.
-  void place_stops(EdgeId e, const std::vector<EdgeUsePlace>& uses) {
+  void place_stops(EdgeId e, const std::vector<EdgeUseLocation>& uses) {
     const ModelEdge& edge = model.edges[e];
     const std::vector<EdgeSample>& samples = edges[e].samples;
     const std::vector<double> nothing(samples.size(), sizes.largest);
-    const std::vector<double>& asked = sizes.edge_sizes[e].empty() ? nothing : sizes.edge_sizes[e];
+    const std::vector<double>& requested = sizes.edge_sizes[e].empty() ? nothing : sizes.edge_sizes[e];
     double cap = sizes.largest;
-    for (const EdgeUsePlace& use : uses) cap = std::min(cap, sizes.faces[use.face].max_edge);
+    for (const EdgeUseLocation& use : uses) cap = std::min(cap, sizes.faces[use.face].max_edge);
     struct End {
       double t;
       Point point;
-      double asked;
+      double requested;
       double spacing;
     };
     const auto end_at = [&](double t, const Point& p, double by_edge) {
-      double asked_here = std::min(cap, by_edge);
-      for (const EdgeUsePlace& use : uses) asked_here = std::min(asked_here, sizes.places(use.face, p));
-      asked_here = in_space(p, asked_here);
-      return End{t, p, asked_here, k_station_sizes * std::min(asked_here, field.bound_(p, cap))};
+      double requested_here = std::min(cap, by_edge);
+      for (const EdgeUseLocation& use : uses) requested_here = std::min(requested_here, sizes.local(use.face, p));
+      requested_here = in_space(p, requested_here);
+      return End{t, p, requested_here, k_station_sizes * std::min(requested_here, field.bound_(p, cap))};
     };
     struct Piece {
       End a, b;
@@ -110,11 +110,11 @@ struct SurfaceSizes::Builder {
     };
     std::vector<Piece> pieces;
     std::vector<Stop>& list = stops[e];
-    End before = end_at(samples.front().t, samples.front().point, asked.front());
-    list.push_back({before.t, before.point, before.asked, 0});
+    End before = end_at(samples.front().t, samples.front().point, requested.front());
+    list.push_back({before.t, before.point, before.requested, 0});
     double along = 0.0;  // length since the last stop
     for (std::size_t i = 1; i < samples.size(); ++i) {
-      const End after = end_at(samples[i].t, samples[i].point, asked[i]);
+      const End after = end_at(samples[i].t, samples[i].point, requested[i]);
       pieces.push_back({before, after, 0});
       while (!pieces.empty()) {
         const Piece piece = pieces.back();
@@ -122,7 +122,7 @@ struct SurfaceSizes::Builder {
         const double length = distance(piece.a.point, piece.b.point), least = std::min(piece.a.spacing, piece.b.spacing);
         if (length > least && piece.depth < k_max_size_halvings) {
           const double t = 0.5 * (piece.a.t + piece.b.t), share = (t - samples[i - 1].t) / (samples[i].t - samples[i - 1].t);
-          const End middle = end_at(t, edge.curve->point(t), asked[i - 1] + share * (asked[i] - asked[i - 1]));
+          const End middle = end_at(t, edge.curve->point(t), requested[i - 1] + share * (requested[i] - requested[i - 1]));
           pieces.push_back({middle, piece.b, piece.depth + 1});
           pieces.push_back({piece.a, middle, piece.depth + 1});
           continue;
@@ -130,23 +130,23 @@ struct SurfaceSizes::Builder {
         along += length;
         const bool is_last = i + 1 == samples.size() && pieces.empty();
         if (is_last || along + 0.5 * length >= least) {
-          list.push_back({piece.b.t, piece.b.point, piece.b.asked, 0});
+          list.push_back({piece.b.t, piece.b.point, piece.b.requested, 0});
           along = 0.0;
         } else {
           // If a sample between two stops requires a size, the last stop gets that requirement.
-          list.back().asked = std::min(list.back().asked, piece.b.asked + field.growth_ * along);
+          list.back().requested = std::min(list.back().requested, piece.b.requested + field.growth_ * along);
         }
       }
       before = after;
     }
   }
 
-  std::array<Vec3, 2> normals_at(const std::vector<EdgeUsePlace>& uses, double t) const {
+  std::array<Vec3, 2> normals_at(const std::vector<EdgeUseLocation>& uses, double t) const {
     std::array<Vec3, 2> normals{};
     if (uses.size() > 2) return normals;
     for (std::size_t k = 0; k < uses.size(); ++k) {
       const ModelFace& face = model.faces[uses[k].face];
-      const SurfaceDerivatives d = face.surface->derivatives(face.borders[uses[k].border][uses[k].place].parameter->point(t));
+      const SurfaceDerivatives d = face.surface->derivatives(face.borders[uses[k].border][uses[k].location].parameter->point(t));
       const Vec3 normal = cross(d.du, d.dv);
       const double length = norm(normal);
       if (length > 0.0 && std::isfinite(length)) normals[k] = normal / length;
@@ -158,7 +158,7 @@ struct SurfaceSizes::Builder {
   /// Visits (u, v) of the stops of one edge use, in the direction of its border.
   template <class Visit>
   void for_stops(const OutlineUse& entry, const Visit& visit) const {
-    const EdgeUse& use = model.faces[entry.place.face].borders[entry.place.border][entry.place.place];
+    const EdgeUse& use = model.faces[entry.location.face].borders[entry.location.border][entry.location.location];
     const std::vector<Stop>& list = stops[use.edge];
     for (std::size_t k = 0; k < list.size(); ++k) {
       const Stop& stop = list[use.is_reversed ? list.size() - 1 - k : k];
@@ -174,7 +174,7 @@ struct SurfaceSizes::Builder {
     for (const auto& border : outline.borders) {
       std::vector<Uv>& loop = loops.emplace_back();
       for (const OutlineUse& entry : border) {
-        const EdgeUse& use = model.faces[f].borders[entry.place.border][entry.place.place];
+        const EdgeUse& use = model.faces[f].borders[entry.location.border][entry.location.location];
         if (stops[use.edge].empty()) {
           const Interval range = model.edges[use.edge].range;
           for (const double t : {range.from, range.to}) loop.push_back(use.parameter->point(use.is_reversed ? range.from + range.to - t : t) + entry.shift);
@@ -196,12 +196,11 @@ struct SurfaceSizes::Builder {
         }
     }
     const double cap = sizes.faces[f].max_edge;
-    const FaceGrid::Bounds bounds{.at = [&, f](const Point& p) { return field.bound_(p, sizes.places(f, p)); },
-                                  .is_level_within =
-                                      [&, f, cap](const Point& p, double reach) {
-                                        return !keeps_grids && sizes.places.is_level_within(f, p, reach) && field.bound_(p, cap, reach) >= cap;
-                                      },
-                                  .largest = cap};
+    const FaceGrid::Bounds bounds{
+        .at = [&, f](const Point& p) { return field.bound_(p, sizes.local(f, p)); },
+        .is_level_within = [&, f, cap](const Point& p,
+                                       double reach) { return !keeps_grids && sizes.local.is_level_within(f, p, reach) && field.bound_(p, cap, reach) >= cap; },
+        .largest = cap};
     field.faces_[f].grid = FaceGrid(*model.faces[f].surface, box, loops, bounds);
   }
 
@@ -217,8 +216,8 @@ struct SurfaceSizes::Builder {
       for (std::size_t k = 0; k < list.size(); ++k) {
         const bool is_end = k == 0 || k + 1 == list.size();
         list[k].node = is_end ? topology.corner[k == 0 ? model.edges[e].start : model.edges[e].end].value()
-                              : graph.add_node(list[k].point, list[k].normals, list[k].asked, true);
-        graph.sizes[list[k].node] = std::min(graph.sizes[list[k].node], list[k].asked);
+                              : graph.add_node(list[k].point, list[k].normals, list[k].requested, true);
+        graph.sizes[list[k].node] = std::min(graph.sizes[list[k].node], list[k].requested);
         if (k > 0) join(list[k - 1].node, list[k].node);
       }
     }
@@ -248,19 +247,19 @@ struct SurfaceSizes::Builder {
     const double cap = sizes.faces[f].max_edge;
     for (std::size_t n = 0; n < nodes.size(); ++n) {
       const double length = norm(normals[n]);
-      double asked = cap;
+      double requested = cap;
       if (nodes[n].is_inside) {
-        asked = sizes.places(f, nodes[n].point);
-        if (!sizes.is_covered || !sizes.is_covered(f, nodes[n].point)) asked = std::min(asked, curvature(nodes[n].uv));
-        asked = in_space(nodes[n].point, asked);
+        requested = sizes.local(f, nodes[n].point);
+        if (!sizes.is_covered || !sizes.is_covered(f, nodes[n].point)) requested = std::min(requested, curvature(nodes[n].uv));
+        requested = in_space(nodes[n].point, requested);
       }
       const Vec3 normal = length > 0.0 ? normals[n] / length : Vec3{};
-      graph.add_node(nodes[n].point, {normal, normal}, asked, nodes[n].is_inside);
+      graph.add_node(nodes[n].point, {normal, normal}, requested, nodes[n].is_inside);
     }
     std::vector<std::vector<std::uint32_t>> stops_in(face.grid.cells().size());
     for (const auto& border : sizes.outlines[f].borders)
       for (const OutlineUse& entry : border) {
-        const EdgeUse& use = model.faces[f].borders[entry.place.border][entry.place.place];
+        const EdgeUse& use = model.faces[f].borders[entry.location.border][entry.location.location];
         if (stops[use.edge].empty()) {
           const Uv at = use.parameter->point(model.edges[use.edge].range.from) + entry.shift;
           stops_in[face.grid.find(at).cell].push_back(topology.corner[model.edges[use.edge].start].value());
@@ -325,10 +324,10 @@ struct SurfaceSizes::Builder {
 };
 
 SurfaceSizes::SurfaceSizes(const Model& model, const Column<EdgeId, EdgeSamples>& edges, const ModelTopology& topology, const ModelSizes& sizes,
-                           std::vector<SizeSite> in_space, const RunContext& context, bool keeps_grids)
+                           std::vector<SizePoint> in_space, const RunContext& context, bool keeps_grids)
     : bound_({}, sizes.growth, sizes.largest, context), growth_(sizes.growth), largest_(sizes.largest) {
   in_space.insert(in_space.end(), sizes.in_space.begin(), sizes.in_space.end());
-  std::vector<SizeSite> all = sizes.sources;
+  std::vector<SizePoint> all = sizes.sources;
   all.insert(all.end(), in_space.begin(), in_space.end());
   bound_ = BackgroundSizes(all, sizes.growth, sizes.largest, context);
   Builder builder{*this, model, edges, topology, sizes, context, keeps_grids, BackgroundSizes(in_space, sizes.growth, sizes.largest, context), {}, {}};
@@ -337,9 +336,9 @@ SurfaceSizes::SurfaceSizes(const Model& model, const Column<EdgeId, EdgeSamples>
 
 double SurfaceSizes::on_face(FaceId face, Uv at, const Point& point) const {
   const FaceField& field = faces_[face];
-  const FaceGrid::Place place = field.grid.find(at);
-  const Cell& cell = field.cells[place.cell];
-  const double s = place.s, t = place.t;
+  const FaceGrid::Location location = field.grid.find(at);
+  const Cell& cell = field.cells[location.cell];
+  const double s = location.s, t = location.t;
   double size = (1.0 - t) * ((1.0 - s) * static_cast<double>(cell.sizes[0]) + s * static_cast<double>(cell.sizes[1])) +
                 t * ((1.0 - s) * static_cast<double>(cell.sizes[2]) + s * static_cast<double>(cell.sizes[3]));
   for (std::uint32_t i = cell.first; i < cell.first + cell.n_segments; ++i) {

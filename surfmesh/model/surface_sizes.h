@@ -25,7 +25,7 @@ class SurfaceSizes {
   /// `in_space` are sources that apply to all faces within their reach, in addition to those of `sizes`. With `keeps_grids` the nodes of grid() are kept, and
   /// no cell is longer than two edges.
   SurfaceSizes(const Model& model, const Column<EdgeId, EdgeSamples>& edges, const ModelTopology& topology, const ModelSizes& sizes,
-               std::vector<SizeSite> in_space, const RunContext& context, bool keeps_grids = false);
+               std::vector<SizePoint> in_space, const RunContext& context, bool keeps_grids = false);
 
   /// Returns the size in metres. Thread-safe.
   /// \pre the face is not absorbed

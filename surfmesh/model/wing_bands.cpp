@@ -24,7 +24,7 @@ constexpr double k_smooth_turn = 20.0 * k_degree;
 constexpr double k_largest_stretch = 50.0;
 /// A use of an edge, or of the edge on the other side of an absorbed strip.
 struct Side {
-  EdgeUsePlace place;
+  EdgeUseLocation location;
   bool is_against = false;  ///< the edge of this use runs against the edge that represents both
 };
 
@@ -36,8 +36,8 @@ struct Look {
 };
 
 Look look(const Model& model, const Side& side, double share) {
-  const ModelFace& face = model.faces[side.place.face];
-  const EdgeUse& use = face.borders[side.place.border][side.place.place];
+  const ModelFace& face = model.faces[side.location.face];
+  const EdgeUse& use = face.borders[side.location.border][side.location.location];
   const Interval range = model.edges[use.edge].range;
   const double t = side.is_against ? range.to - share * range.length() : range.from + share * range.length();
   const ParameterCurveDerivatives p = use.parameter->derivatives(t);
@@ -117,26 +117,26 @@ struct Finding {
   WingBands bands;
   Column<EdgeId, std::vector<Side>> sides;  ///< sides of the edges that represent themselves, on faces that remain
 
-  const FaceSizes& of(const Side& side) const { return sizes.faces[side.place.face]; }
-  bool is_strip(const Side& side) const { return bands.strips[side.place.face].has_value(); }
+  const FaceSizes& of(const Side& side) const { return sizes.faces[side.location.face]; }
+  bool is_strip(const Side& side) const { return bands.strips[side.location.face].has_value(); }
   CornerId corner(End e) const { return topology.corner[e.end == 0 ? model.edges[e.edge].start : model.edges[e.edge].end]; }
 };
 
 void gather_sides(Finding& finding) {
-  const Column<EdgeId, std::vector<EdgeUsePlace>> uses = uses_of_edges(finding.model);
+  const Column<EdgeId, std::vector<EdgeUseLocation>> uses = uses_of_edges(finding.model);
   finding.sides.resize(finding.model.edges.size());
   for (const EdgeId e : finding.model.edges.ids()) {
     const SameEdge& same = finding.topology.same_as[e];
     if (finding.topology.is_point[e] != 0 || finding.edges[e].samples.empty()) continue;
-    for (const EdgeUsePlace& place : uses[e])
-      if (finding.topology.is_absorbed[place.face] == 0) finding.sides[same.edge].push_back({place, same.is_reversed});
+    for (const EdgeUseLocation& location : uses[e])
+      if (finding.topology.is_absorbed[location.face] == 0) finding.sides[same.edge].push_back({location, same.is_reversed});
   }
 }
 
 const Side* other_side(const std::vector<Side>& sides, FaceId f) {
   if (sides.size() != 2) return nullptr;
-  if (sides[0].place.face == f && sides[1].place.face == f) return nullptr;
-  return sides[0].place.face == f ? &sides[1] : &sides[0];
+  if (sides[0].location.face == f && sides[1].location.face == f) return nullptr;
+  return sides[0].location.face == f ? &sides[1] : &sides[0];
 }
 
 double area_of(const Finding& finding, FaceId f) { return finding.sizes.faces[f].curvature->area(); }
@@ -173,9 +173,9 @@ std::optional<BaseStrip> strip_of(const Finding& finding, FaceId f) {
   for (const Use& use : {uses[a], uses[b]}) {
     const std::vector<Side>& sides = finding.sides[use.edge];
     const Side* other = other_side(sides, f);
-    if (!other || !may_be_wing(model, other->place.face)) return std::nullopt;
+    if (!other || !may_be_wing(model, other->location.face)) return std::nullopt;
     n_base += shape_of(model, sides[0], sides[1]).n_base;
-    if (face.role != FaceRole::trailing_edge && strip.width > k_strip_width * area_of(finding, other->place.face) / use.length) return std::nullopt;
+    if (face.role != FaceRole::trailing_edge && strip.width > k_strip_width * area_of(finding, other->location.face) / use.length) return std::nullopt;
     looks -= 0.5 * look(model, *other, 0.5).inwards.x;
   }
   if (std::abs(n_base) < 2 * static_cast<int>(k_agreeing) || looks < k_looks_along) return std::nullopt;
@@ -204,24 +204,24 @@ void find_strips(Finding& finding) {
       continue;
     }
     double cells = finding.sizes.faces[f].trailing_cells;
-    BandWish wish = finding.sizes.faces[f].trailing;
+    BandTarget target = finding.sizes.faces[f].trailing;
     for (const EdgeId e : strip->long_edge) {
       const Side* other = other_side(finding.sides[e], f);
       if (is_automatic(cells)) cells = finding.of(*other).trailing_cells;
-      wish = both(wish, finding.of(*other).trailing);
+      target = both(target, finding.of(*other).trailing);
     }
-    if (is_automatic(cells) && !wish.is_any()) continue;
+    if (is_automatic(cells) && !target.is_any()) continue;
     // If the number is not given, cells are about square beside the first row.
-    if (is_automatic(cells)) cells = std::max(1.0, strip->width / wish.first_height(finding.sizes.faces[f].max_edge));
+    if (is_automatic(cells)) cells = std::max(1.0, strip->width / target.first_height(finding.sizes.faces[f].max_edge));
     strip->n_cells = static_cast<std::size_t>(std::max(1.0, std::round(cells)));
     for (const EdgeId e : strip->short_edges) finding.bands.n_short[e] = std::max(finding.bands.n_short[e], strip->n_cells);
     finding.bands.strips[f] = std::move(strip);
   }
-  const bool is_asked =
+  const bool is_requested =
       std::any_of(finding.sizes.faces.begin(), finding.sizes.faces.end(), [](const FaceSizes& face) { return !is_automatic(face.trailing_cells); });
   const bool is_found =
       std::any_of(finding.bands.strips.begin(), finding.bands.strips.end(), [](const std::optional<BaseStrip>& strip) { return strip.has_value(); });
-  if (is_asked && !is_found && finding.bands.notes.empty())
+  if (is_requested && !is_found && finding.bands.notes.empty())
     finding.bands.notes.push_back(
         "trailing_edge_cells has no effect: no face of the model is the base of a blunt trailing edge (four sides, narrow, facing aft)");
   // A short side that two strips share gets the number of cells of the finer strip. The other strip, and its neighbours along the span, follow.
@@ -245,20 +245,21 @@ std::optional<BandKind> kind_of(const Finding& finding, EdgeId e) {
   const std::vector<Side>& sides = finding.sides[e];
   if (sides.size() != 2) return std::nullopt;
   for (const Side& side : sides)
-    if (!may_be_wing(model, side.place.face)) return std::nullopt;
+    if (!may_be_wing(model, side.location.face)) return std::nullopt;
   const bool is_strip = finding.is_strip(sides[0]) || finding.is_strip(sides[1]);
   if (is_strip) {
     for (const Side& side : sides)
-      if (const auto& strip = finding.bands.strips[side.place.face]; strip && (strip->long_edge[0] == e || strip->long_edge[1] == e)) return BandKind::trailing;
+      if (const auto& strip = finding.bands.strips[side.location.face]; strip && (strip->long_edge[0] == e || strip->long_edge[1] == e))
+        return BandKind::trailing;
     return std::nullopt;
   }
   const BandShape shape = shape_of(model, sides[0], sides[1]);
   if (shape.n_sharp >= k_agreeing && std::abs(shape.looks) > k_looks_along) return shape.looks > 0.0 ? BandKind::trailing : BandKind::leading;
   if (shape.n_smooth < k_agreeing || shape.looks > -k_looks_along) return std::nullopt;
-  const FaceRole a = model.faces[sides[0].place.face].role, b = model.faces[sides[1].place.face].role;
+  const FaceRole a = model.faces[sides[0].location.face].role, b = model.faces[sides[1].location.face].role;
   const bool is_known = (a == FaceRole::upper && b == FaceRole::lower) || (a == FaceRole::lower && b == FaceRole::upper);
   double width = k_infinite;
-  for (const Side& side : sides) width = std::min(width, area_of(finding, side.place.face) / finding.edges[e].length);
+  for (const Side& side : sides) width = std::min(width, area_of(finding, side.location.face) / finding.edges[e].length);
   return is_known || shape.curvature * width * k_nose_radius >= 1.0 ? std::optional(BandKind::leading) : std::nullopt;
 }
 
@@ -270,19 +271,19 @@ void find_edges(Finding& finding) {
     if (!p.leading.is_any() && !q.leading.is_any() && !p.trailing.is_any() && !q.trailing.is_any()) continue;
     const std::optional<BandKind> kind = kind_of(finding, e);
     if (!kind) continue;
-    const BandWish wish = *kind == BandKind::leading ? both(p.leading, q.leading) : both(p.trailing, q.trailing);
-    if (!wish.is_any()) continue;
-    BandEdge band{.kind = *kind, .growth = wish.growth};
+    const BandTarget target = *kind == BandKind::leading ? both(p.leading, q.leading) : both(p.trailing, q.trailing);
+    if (!target.is_any()) continue;
+    BandEdge band{.kind = *kind, .growth = target.growth};
     const double max_edge = std::min(p.max_edge, q.max_edge);
-    band.first = std::min(max_edge, wish.first_height(max_edge));
-    band.longest = wish.longest(max_edge);
+    band.first = std::min(max_edge, target.first_height(max_edge));
+    band.longest = target.longest(max_edge);
     for (const Side& side : sides)
-      if (const auto& strip = finding.bands.strips[side.place.face])
+      if (const auto& strip = finding.bands.strips[side.location.face])
         band.longest = std::min(band.longest, k_largest_stretch * strip->width / static_cast<double>(strip->n_cells));
     finding.bands.edges[e] = std::move(band);
     finding.bands.is_unused = false;
     for (const Side& side : sides)
-      if (!finding.is_strip(side)) finding.bands.bands_of_face[side.place.face].push_back(e);
+      if (!finding.is_strip(side)) finding.bands.bands_of_face[side.location.face].push_back(e);
   }
 }
 
@@ -310,7 +311,7 @@ bool goes_on(Finding& finding, End a, End b, const std::vector<End>& at_corner) 
     const double sine = std::min(norm(cross(across, along)), norm(cross(across, back)));
     // Tests if the edge has rows on both sides.
     const auto has_rows = [&](const Side& side) {
-      const auto& list = finding.bands.bands_of_face[side.place.face];
+      const auto& list = finding.bands.bands_of_face[side.location.face];
       return std::find(list.begin(), list.end(), a.edge) != list.end() || std::find(list.begin(), list.end(), b.edge) != list.end();
     };
     const std::vector<Side>& sides = finding.sides[end.edge];
@@ -328,7 +329,7 @@ bool goes_on(Finding& finding, End a, End b, const std::vector<End>& at_corner) 
 void join_at_corners(Finding& finding) {
   Column<CornerId, std::vector<End>> ends(finding.model.corners.size());
   Column<CornerId, std::uint8_t> has_pole(finding.model.corners.size(), 0);
-  const Column<EdgeId, std::vector<EdgeUsePlace>> uses = uses_of_edges(finding.model);
+  const Column<EdgeId, std::vector<EdgeUseLocation>> uses = uses_of_edges(finding.model);
   for (const EdgeId e : finding.model.edges.ids()) {
     if (!finding.sides[e].empty())
       for (const int end : {0, 1}) ends[finding.corner({e, end})].push_back({e, end});
@@ -397,7 +398,7 @@ void set_spacing(Finding& finding) {
         longest = std::min(longest, limits.size_of(s.curvature));
         if (finding.is_strip(side)) continue;
         if (const Look l = look(finding.model, side, (s.t - range.from) / range.length()); l.is_valid) first = std::min(first, limits.size_of(norm(l.bend)));
-        room = std::min(room, room_beside(finding, e, side.place.face, s.point));
+        room = std::min(room, room_beside(finding, e, side.location.face, s.point));
       }
       const double way = std::min(ways[finding.corner({e, 0})] + along, ways[finding.corner({e, 1})] + samples.length - along);
       const double climb = band->growth - 1.0;
@@ -455,7 +456,7 @@ bool WingBands::covers(const Column<EdgeId, EdgeSamples>& samples, FaceId f, con
   return false;
 }
 
-void WingBands::overrule(const Column<EdgeId, EdgeSamples>& samples, const std::vector<EdgeUsePlace>& uses, EdgeId e, double largest,
+void WingBands::overrule(const Column<EdgeId, EdgeSamples>& samples, const std::vector<EdgeUseLocation>& uses, EdgeId e, double largest,
                          std::vector<double>& sizes) const {
   if (edges[e]) {
     sizes = edges[e]->spacing;
@@ -464,7 +465,7 @@ void WingBands::overrule(const Column<EdgeId, EdgeSamples>& samples, const std::
     sizes.assign(sizes.size(), is_short_ending[e] != 0 ? samples[e].length / static_cast<double>(n_short[e]) : largest);
   } else if (!is_unused) {
     for (std::size_t k = 0; k < sizes.size(); ++k)
-      if (std::all_of(uses.begin(), uses.end(), [&](const EdgeUsePlace& place) { return covers(samples, place.face, samples[e].samples[k].point); }))
+      if (std::all_of(uses.begin(), uses.end(), [&](const EdgeUseLocation& location) { return covers(samples, location.face, samples[e].samples[k].point); }))
         sizes[k] = largest;
   }
 }

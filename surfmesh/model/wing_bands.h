@@ -64,7 +64,8 @@ struct WingBands {
   bool covers(const Column<EdgeId, EdgeSamples>& samples, FaceId f, const Point& p) const;
 
   /// Replaces the sizes at the samples of an edge by those of the bands.
-  void overrule(const Column<EdgeId, EdgeSamples>& samples, const std::vector<EdgeUsePlace>& uses, EdgeId e, double largest, std::vector<double>& sizes) const;
+  void overrule(const Column<EdgeId, EdgeSamples>& samples, const std::vector<EdgeUseLocation>& uses, EdgeId e, double largest,
+                std::vector<double>& sizes) const;
 
   bool is_unused = true;
   Column<FaceId, std::vector<EdgeId>> bands_of_face;

@@ -8,7 +8,7 @@
 #include "geom/math/constants.h"
 #include "geom/math/measures.h"
 #include "surfmesh/face/band_rows.h"
-#include "surfmesh/model/band_wish.h"
+#include "surfmesh/model/band_target.h"
 #include "surfmesh/model/wing_edges.h"
 #include "surfmesh/remesh/remesh_sizes.h"
 
@@ -61,7 +61,7 @@ struct LineShape {
 /// Returns the segment of the k-th sampled location on a line.
 std::uint32_t segment_of_look(const Reference& r, std::int32_t line, std::size_t k) {
   const double share = (static_cast<double>(k) + 0.5) / static_cast<double>(k_looks);
-  return r.line_place(line, share * r.lines[static_cast<std::size_t>(line)].length()).segment;
+  return r.line_location(line, share * r.lines[static_cast<std::size_t>(line)].length()).segment;
 }
 
 /// \param most m, upper limit of the measured widths
@@ -184,7 +184,7 @@ std::optional<WingLine> wing_line_of(const Reference& r, std::int32_t number, co
 
 /// Returns the rows on both sides of a line. \p requests rows requested on each patch
 LineRows rows_of(const Reference& r, std::int32_t number, const LineShape& shape, const WingLine& wing_line, const SurfaceLimitTable& limits_of,
-                 const std::vector<BandWishes>& requests) {
+                 const std::vector<BandTargets>& requests) {
   const FeatureLine& line = r.lines[static_cast<std::size_t>(number)];
   LineRows rows{.line = number, .sides = {}, .longest = std::numeric_limits<double>::infinity()};
   HalfedgeId left = line.halfedges.front();
@@ -192,8 +192,8 @@ LineRows rows_of(const Reference& r, std::int32_t number, const LineShape& shape
   const std::array<TriangleId, 2> beside{triangle_of(left), triangle_of(r.topology.twin(left))};
   for (std::size_t i = 0; i < 2; ++i) {
     if (wing_line.base == i) continue;
-    const BandWishes& wish = requests[r.mesh->triangle_patch[beside[i]].index()];
-    const BandWish& band = wing_line.kind == BandKind::leading ? wish.leading : wish.trailing;
+    const BandTargets& target = requests[r.mesh->triangle_patch[beside[i]].index()];
+    const BandTarget& band = wing_line.kind == BandKind::leading ? target.leading : target.trailing;
     if (!band.is_any()) continue;
     const SurfaceLimits& limits = limits_of.of(beside[i]);
     rows.sides[i] = {true, std::min(limits.max_edge, band.first_height(limits.max_edge)), band.growth, limits.curvature_angle, limits.min_edge};
@@ -228,11 +228,11 @@ void let_rows_go_on(const Reference& r, std::vector<LineRows>& lines) {
 
 RowLines find_row_lines(const Reference& r, const SurfaceLimitTable& limits_of, const RemeshOptions& options, std::span<const PatchSurfaceOptions> patches) {
   RowLines found;
-  std::vector<BandWishes> wishes;
-  for (const Patch& patch : r.mesh->patches) wishes.push_back(band_wishes(patch.name, options, patches));
-  const bool is_leading_asked = std::ranges::any_of(wishes, [](const BandWishes& wish) { return wish.leading.is_any(); });
-  const bool is_trailing_asked = std::ranges::any_of(wishes, [](const BandWishes& wish) { return wish.trailing.is_any(); });
-  if (!is_leading_asked && !is_trailing_asked) return found;
+  std::vector<BandTargets> targets;
+  for (const Patch& patch : r.mesh->patches) targets.push_back(band_targets(patch.name, options, patches));
+  const bool is_leading_requested = std::ranges::any_of(targets, [](const BandTargets& target) { return target.leading.is_any(); });
+  const bool is_trailing_requested = std::ranges::any_of(targets, [](const BandTargets& target) { return target.trailing.is_any(); });
+  if (!is_leading_requested && !is_trailing_requested) return found;
   const double length = body_length(*r.mesh);
   bool is_leading_found = false, is_trailing_found = false;
   for (std::size_t l = 0; l < r.lines.size(); ++l) {
@@ -241,15 +241,15 @@ RowLines find_row_lines(const Reference& r, const SurfaceLimitTable& limits_of, 
     const LineShape shape = shape_of_line(r, number, length);
     const std::optional<WingLine> wing_line = wing_line_of(r, number, shape);
     if (!wing_line) continue;
-    const LineRows rows = rows_of(r, number, shape, *wing_line, limits_of, wishes);
+    const LineRows rows = rows_of(r, number, shape, *wing_line, limits_of, targets);
     if (!rows.sides[0].is_any && !rows.sides[1].is_any) continue;
     (wing_line->kind == BandKind::leading ? is_leading_found : is_trailing_found) = true;
     found.lines.push_back(rows);
   }
   let_rows_go_on(r, found.lines);
-  if (is_trailing_asked && !is_trailing_found)
+  if (is_trailing_requested && !is_trailing_found)
     found.notes.push_back("no rows at trailing edges: the surface has no trailing edge (a sharp edge, or a side of a narrow base, that faces aft along x)");
-  if (is_leading_asked && !is_leading_found)
+  if (is_leading_requested && !is_leading_found)
     found.notes.push_back(
         "no rows at leading edges: the surface has no leading edge (a sharp edge that faces forward along x, or a smooth nose, curved much more than the "
         "surface "

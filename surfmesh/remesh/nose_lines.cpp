@@ -6,7 +6,7 @@
 #include "geom/base/parallel.h"
 #include "geom/math/measures.h"
 #include "geom/mesh/find_crossings.h"
-#include "surfmesh/model/band_wish.h"
+#include "surfmesh/model/band_target.h"
 #include "surfmesh/remesh/line_rows.h"
 
 namespace sterna::surfmesh {
@@ -213,10 +213,10 @@ NoseCut cut_noses(const Reference& r, bool is_flat, const RunContext& context) {
   return cut;
 }
 
-std::optional<NoseCut> cut_noses_if_asked(const TriMesh& wall, const ReferenceOptions& reference_options, const RemeshOptions& options,
-                                          std::span<const PatchSurfaceOptions> patches, const RunContext& context) {
-  const bool is_asked = std::ranges::any_of(wall.patches, [&](const Patch& patch) { return band_wishes(patch.name, options, patches).leading.is_any(); });
-  if (!is_asked) return std::nullopt;
+std::optional<NoseCut> cut_noses_if_requested(const TriMesh& wall, const ReferenceOptions& reference_options, const RemeshOptions& options,
+                                              std::span<const PatchSurfaceOptions> patches, const RunContext& context) {
+  const bool is_requested = std::ranges::any_of(wall.patches, [&](const Patch& patch) { return band_targets(patch.name, options, patches).leading.is_any(); });
+  if (!is_requested) return std::nullopt;
   const Reference reference(wall, reference_options, {}, {}, context);
   NoseCut cut = cut_noses(reference, !options.smooth, context);
   // The smooth surface between the given vertices may meet another part of the surface. The given triangles do not, so they are used in that case.

@@ -21,7 +21,7 @@ struct NoseCut {
 NoseCut cut_noses(const Reference& reference, bool is_flat, const RunContext& context);
 
 /// Returns the wall with the smooth leading edges of wings as lines of edges. Returns nothing if no rule or option requires rows there.
-std::optional<NoseCut> cut_noses_if_asked(const TriMesh& wall, const ReferenceOptions& reference_options, const RemeshOptions& options,
-                                          std::span<const PatchSurfaceOptions> patches, const RunContext& context);
+std::optional<NoseCut> cut_noses_if_requested(const TriMesh& wall, const ReferenceOptions& reference_options, const RemeshOptions& options,
+                                              std::span<const PatchSurfaceOptions> patches, const RunContext& context);
 
 }  // namespace sterna::surfmesh

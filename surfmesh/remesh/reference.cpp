@@ -231,9 +231,9 @@ struct LineFinder {
     for (std::size_t piece = 1; piece <= 3; ++piece) {
       std::size_t end = begin + 1;
       gone += distance(at(way[begin]), at(way[end]));
-      const double wanted = length * static_cast<double>(piece) / 3.0;
+      const double target = length * static_cast<double>(piece) / 3.0;
       const std::size_t last = way.size() - 1 - (3 - piece);
-      while (end < last && (piece == 3 || gone + 0.5 * distance(at(way[end]), at(way[end + 1])) < wanted)) {
+      while (end < last && (piece == 3 || gone + 0.5 * distance(at(way[end]), at(way[end + 1])) < target)) {
         gone += distance(at(way[end]), at(way[end + 1]));
         ++end;
       }
@@ -351,7 +351,7 @@ Reference::Reference(const TriMesh& wall, const ReferenceOptions& options, const
   }
 }
 
-Foot Reference::nearest(const Point& p, TriangleId start) const {
+ReferenceLocation Reference::nearest(const Point& p, TriangleId start) const {
   struct Step {
     TriangleId triangle;
     double distance2;
@@ -383,31 +383,32 @@ Foot Reference::nearest(const Point& p, TriangleId start) const {
   const Point q = nearest_on_triangle(p, c);
   const Vec3 u = c[1] - c[0], v = c[2] - c[0], w = q - c[0], n = cross(u, v);
   const double n2 = norm2(n);
-  Foot foot{t, 0.0, 0.0};
+  ReferenceLocation location{t, 0.0, 0.0};
   if (n2 > 0.0) {
-    foot.b1 = std::clamp(dot(cross(w, v), n) / n2, 0.0, 1.0);
-    foot.b2 = std::clamp(dot(cross(u, w), n) / n2, 0.0, 1.0 - foot.b1);
+    location.b1 = std::clamp(dot(cross(w, v), n) / n2, 0.0, 1.0);
+    location.b2 = std::clamp(dot(cross(u, w), n) / n2, 0.0, 1.0 - location.b1);
   }
-  return foot;
+  return location;
 }
 
-Point Reference::flat_point(const Foot& foot) const {
-  const auto c = corners(*mesh, foot.triangle);
-  return c[0] + foot.b1 * (c[1] - c[0]) + foot.b2 * (c[2] - c[0]);
+Point Reference::flat_point(const ReferenceLocation& location) const {
+  const auto c = corners(*mesh, location.triangle);
+  return c[0] + location.b1 * (c[1] - c[0]) + location.b2 * (c[2] - c[0]);
 }
 
-Point Reference::point(const Foot& foot) const {
-  const double b0 = 1.0 - foot.b1 - foot.b2;
-  const HalfedgeId h = halfedge(foot.triangle, 0);
-  return flat_point(foot) + (4.0 * b0 * foot.b1) * bulges[h] + (4.0 * foot.b1 * foot.b2) * bulges[next(h)] + (4.0 * foot.b2 * b0) * bulges[previous(h)];
+Point Reference::point(const ReferenceLocation& location) const {
+  const double b0 = 1.0 - location.b1 - location.b2;
+  const HalfedgeId h = halfedge(location.triangle, 0);
+  return flat_point(location) + (4.0 * b0 * location.b1) * bulges[h] + (4.0 * location.b1 * location.b2) * bulges[next(h)] +
+         (4.0 * location.b2 * b0) * bulges[previous(h)];
 }
 
-Vec3 Reference::normal(const Foot& foot) const {
-  const HalfedgeId h = halfedge(foot.triangle, 0);
-  return normalized((1.0 - foot.b1 - foot.b2) * normals[h] + foot.b1 * normals[next(h)] + foot.b2 * normals[previous(h)]);
+Vec3 Reference::normal(const ReferenceLocation& location) const {
+  const HalfedgeId h = halfedge(location.triangle, 0);
+  return normalized((1.0 - location.b1 - location.b2) * normals[h] + location.b1 * normals[next(h)] + location.b2 * normals[previous(h)]);
 }
 
-Reference::LinePlace Reference::line_place(std::int32_t number, double s) const {
+Reference::LineLocation Reference::line_location(std::int32_t number, double s) const {
   const FeatureLine& l = lines[static_cast<std::size_t>(number)];
   const auto after = std::upper_bound(l.lengths.begin() + 1, l.lengths.end() - 1, s);
   const std::size_t i = static_cast<std::size_t>(after - l.lengths.begin()) - 1;
@@ -417,7 +418,7 @@ Reference::LinePlace Reference::line_place(std::int32_t number, double s) const 
 
 Point Reference::line_point(std::int32_t number, double s) const {
   const FeatureLine& l = lines[static_cast<std::size_t>(number)];
-  const auto [i, t] = line_place(number, s);
+  const auto [i, t] = line_location(number, s);
   const Point &a = mesh->points[l.vertices[i]], &b = mesh->points[l.vertices[i + 1]];
   return a + t * (b - a) + (4.0 * t * (1.0 - t)) * l.bulges[i];
 }

@@ -25,7 +25,7 @@ struct FeatureLine {
 };
 
 /// A location on a triangle of the reference; the weight of its first corner is 1 - b1 - b2.
-struct Foot {
+struct ReferenceLocation {
   TriangleId triangle;
   double b1 = 0.0, b2 = 0.0;
 };
@@ -56,20 +56,20 @@ struct Reference {
 
   /// Returns the nearest location on the triangles that can be reached from `start` without crossing a line. The search is a walk that approaches p in each
   /// step.
-  Foot nearest(const Point& p, TriangleId start) const;
-  Point flat_point(const Foot& foot) const;
+  ReferenceLocation nearest(const Point& p, TriangleId start) const;
+  Point flat_point(const ReferenceLocation& location) const;
   /// Returns the point on the curved patch.
-  Point point(const Foot& foot) const;
+  Point point(const ReferenceLocation& location) const;
   /// Returns the unit normal.
-  Vec3 normal(const Foot& foot) const;
+  Vec3 normal(const ReferenceLocation& location) const;
   /// Returns the point on the curve of a line; \p s in [0, length].
   Point line_point(std::int32_t line, double s) const;
   /// Segment of a line that contains s, and the fraction of the segment at s.
-  struct LinePlace {
+  struct LineLocation {
     std::uint32_t segment;
     double t;
   };
-  LinePlace line_place(std::int32_t line, double s) const;
+  LineLocation line_location(std::int32_t line, double s) const;
 };
 
 }  // namespace sterna::surfmesh

@@ -11,7 +11,7 @@ namespace sterna::surfmesh {
 
 /// Requirements for a result.
 struct RemeshDemand {
-  double most_needles = std::numeric_limits<double>::infinity();  ///< largest fraction of triangles with an angle below k_needle_angle
+  double most_slivers = std::numeric_limits<double>::infinity();  ///< largest fraction of triangles with an angle below k_sliver_angle
   double least_angle = 0.0;                                       ///< rad, smallest angle that the result may have
   /// Largest distance between the two surfaces in both directions, relative to the body length.
   double largest_distance = std::numeric_limits<double>::infinity();
@@ -24,7 +24,7 @@ struct RemeshDemand {
 /// triangles cross, because later rounds keep more of the given triangles. At the end it refuses a result that is farther from the given surface than allowed,
 /// or turned more.
 /// \throws Error like remesh_surface; Error(geometry_failed) if it ends early, with the location of the thinnest triangle or of the largest distance
-RemeshResult remesh_surface(const TriMesh& wall, const RemeshOptions& options, std::span<const PatchSurfaceOptions> patches, const SpaceSizes& asked,
+RemeshResult remesh_surface(const TriMesh& wall, const RemeshOptions& options, std::span<const PatchSurfaceOptions> patches, const SpaceSizes& requested,
                             const RemeshDemand& demand, const RunContext& context);
 
 /// Checks the distance and the turn of a result. The result may have been made without demand.

@@ -17,14 +17,14 @@ constexpr double k_made = 1.3;
 
 }  // namespace
 
-RemeshForecast forecast_remesh(const TriMesh& wall, const RemeshOptions& options, std::span<const PatchSurfaceOptions> patches, const SpaceSizes& asked,
+RemeshForecast forecast_remesh(const TriMesh& wall, const RemeshOptions& options, std::span<const PatchSurfaceOptions> patches, const SpaceSizes& requested,
                                const RunContext& context) {
   const Reference reference(wall, {options.feature_angle, least_edge(wall, options, patches, context), options.smooth, {}}, {}, {}, context);
-  const RemeshSizes sizes(reference, options, patches, asked, context);
+  const RemeshSizes sizes(reference, options, patches, requested, context);
   const SurfaceLimitTable limits(wall, reference.topology, options, patches);
   struct OfPatch {
     double n = 0.0, by_longest = 0.0, least = 1e300;
-    Point place;
+    Point location;
   };
   std::vector<OfPatch> of_patches(std::max<std::size_t>(1, wall.patches.size()));
   RemeshForecast forecast;
@@ -39,13 +39,13 @@ RemeshForecast forecast_remesh(const TriMesh& wall, const RemeshOptions& options
     forecast.n_triangles += n;
     if (size >= patch.least) continue;
     patch.least = size;
-    patch.place = middle;
+    patch.location = middle;
   }
   const auto most = std::ranges::max_element(of_patches, {}, &OfPatch::n);
   if (wall.patches.size() > 0) forecast.patch = wall.patches[PatchId(static_cast<std::uint64_t>(most - of_patches.begin()))].name;
   forecast.of_patch = most->n;
   forecast.least_edge = most->least;
-  forecast.place = most->place;
+  forecast.location = most->location;
   forecast.is_by_longest = most->by_longest >= 0.5 * most->n;
   return forecast;
 }

@@ -47,22 +47,22 @@ void measure_angles(const TriMesh& mesh, RemeshReport& report) {
   report.angle_quantile_1 = *at_1;
 }
 
-NeedleCount count_needles(const TriMesh& mesh, double limit) {
-  NeedleCount needles;
+SliverCount count_slivers(const TriMesh& mesh, double limit) {
+  SliverCount slivers;
   for (const TriangleId t : mesh.triangles.ids()) {
     const auto [a, b, c] = corners(mesh, t);
     const double least = std::min({corner_angle(a, b, c), corner_angle(b, c, a), corner_angle(c, a, b)});
-    if (least < limit) ++needles.n;
-    if (t.index() == 0 || least < needles.least_angle) {
-      needles.least_angle = least;
-      needles.place = (a + b + c) / 3.0;
+    if (least < limit) ++slivers.n;
+    if (t.index() == 0 || least < slivers.least_angle) {
+      slivers.least_angle = least;
+      slivers.location = (a + b + c) / 3.0;
     }
   }
-  return needles;
+  return slivers;
 }
 
-bool is_remesh_advised(const NeedleCount& needles, std::size_t n_triangles) {
-  return needles.n > 0 && (needles.least_angle < k_worst_needle_angle || static_cast<double>(needles.n) > k_needle_share * static_cast<double>(n_triangles));
+bool is_remesh_advised(const SliverCount& slivers, std::size_t n_triangles) {
+  return slivers.n > 0 && (slivers.least_angle < k_worst_sliver_angle || static_cast<double>(slivers.n) > k_sliver_share * static_cast<double>(n_triangles));
 }
 
 SurfaceDistance surface_distance(const TriMesh& from, const TriMesh& to, bool is_from_new, const RunContext& context) {
@@ -77,7 +77,7 @@ SurfaceDistance surface_distance(const TriMesh& from, const TriMesh& to, bool is
       if (edge > 0.0) distance.of_edge = std::max(distance.of_edge, d / edge);
       if (d > distance.max) {
         distance.max = d;
-        distance.place = p;
+        distance.location = p;
       }
     }
   };
@@ -130,7 +130,7 @@ std::string to_text(const RemeshReport& r) {
   const auto far = [&](const SurfaceDistance& d) {
     std::ostringstream s;
     s.precision(3);
-    s << d.max << " m (" << d.max / r.length << " of the length) at " << format_point(d.place) << ", mean " << d.mean << " m";
+    s << d.max << " m (" << d.max / r.length << " of the length) at " << format_point(d.location) << ", mean " << d.mean << " m";
     return s.str();
   };
   text << r.n_triangles_before << " triangles were remeshed to " << r.n_triangles << "; edges of " << r.least_size << " to " << r.max_edge
@@ -139,10 +139,10 @@ std::string to_text(const RemeshReport& r) {
        << r.angle_quantile_1 * k_to_degrees << ", radius ratio " << r.mean_radius_ratio << " by area\n";
   text << "distance of the new surface from the input surface: " << far(r.to_input) << "\n";
   text << "distance of the input surface from the new surface: " << far(r.from_input);
-  if (r.n_needles > 0) {
+  if (r.n_slivers > 0) {
     text << "\n"
-         << r.n_needles << " sliver triangles (a corner below " << k_needle_angle * k_to_degrees << " degrees) are forced by lines and corners, the worst:";
-    for (const ErrorPlace& place : r.needles) text << "\n  " << format_point(place.position) << " " << place.what;
+         << r.n_slivers << " sliver triangles (a corner below " << k_sliver_angle * k_to_degrees << " degrees) are forced by lines and corners, the worst:";
+    for (const ErrorLocation& location : r.slivers) text << "\n  " << format_point(location.position) << " " << location.what;
   }
   if (r.rows.n_triangles > 0)
     text << "\nrows at leading and trailing edges: " << r.rows.n_triangles << " triangles at " << r.rows.n_columns << " locations (" << r.rows.n_without

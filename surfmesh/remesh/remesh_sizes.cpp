@@ -132,11 +132,11 @@ double SurfaceLimitTable::least() const {
 }
 
 RemeshSizes::RemeshSizes(Borrowed<const Reference> reference, const RemeshOptions& options, std::span<const PatchSurfaceOptions> patches,
-                         const SpaceSizes& asked, const RunContext& context)
+                         const SpaceSizes& requested, const RunContext& context)
     : r_(reference),
       options_(options),
       patches_(patches.begin(), patches.end()),
-      asked_(asked),
+      requested_(requested),
       refinement_(options.refinement),
       slope_((options.growth - 1.0) / options.refinement),
       cap_(reference->mesh->n_triangles()),
@@ -202,10 +202,10 @@ void RemeshSizes::cover(const Column<VertexId, std::uint8_t>& covered, const Run
       if (found[t.index()] < cap_[t])
         for (const VertexId v : wall.triangles[t]) at_[v] = std::min(at_[v], found[t.index()]);
   }
-  if (!asked_.samples.empty()) {
-    const SizeSites sites(asked_.samples, (options.growth - 1.0), context);
+  if (!requested_.samples.empty()) {
+    const SizePointTree size_points(requested_.samples, (options.growth - 1.0), context);
     parallel_for(context, at_.size(), [&](std::size_t v) {
-      at_[VertexId(v)] = std::min(at_[VertexId(v)], sites.smallest(wall.points[VertexId(v)], {.cap = largest_ * refinement_}) / refinement_);
+      at_[VertexId(v)] = std::min(at_[VertexId(v)], size_points.smallest(wall.points[VertexId(v)], {.cap = largest_ * refinement_}) / refinement_);
     });
   }
   carry();
@@ -249,9 +249,9 @@ double RemeshSizes::operator()(const Point& p, TriangleId t) const {
       size = std::min(size, std::max(own_[t], (1.0 - b1 - b2) * at_[v[0]] + b1 * at_[v[1]] + b2 * at_[v[2]]));
     }
   }
-  if (sites_) size = sites_->smallest(p, {.cap = size});
-  if (asked_.regions) size = std::min(size, asked_.regions(p, slope_ * refinement_) / refinement_);
-  if (asked_.function) size = std::min(size, asked_.function(p) / refinement_);
+  if (size_points_) size = size_points_->smallest(p, {.cap = size});
+  if (requested_.regions) size = std::min(size, requested_.regions(p, slope_ * refinement_) / refinement_);
+  if (requested_.function) size = std::min(size, requested_.function(p) / refinement_);
   return size;
 }
 
@@ -259,9 +259,9 @@ void RemeshSizes::lower(TriangleId t, const Point& p, double size) {
   for (const VertexId v : r_.mesh->triangles[t]) at_[v] = std::min(at_[v], size + slope_ * distance(p, r_.mesh->points[v]));
 }
 
-void RemeshSizes::ask_at(std::span<const SizeSite> sites, const RunContext& context) {
-  sites_.reset();
-  if (!sites.empty()) sites_.emplace(sites, slope_, context);
+void RemeshSizes::request_at(std::span<const SizePoint> size_points, const RunContext& context) {
+  size_points_.reset();
+  if (!size_points.empty()) size_points_.emplace(size_points, slope_, context);
 }
 
 double RemeshSizes::least() const { return *std::min_element(at_.begin(), at_.end()); }

@@ -7,7 +7,7 @@
 
 #include "geom/base/borrowed.h"
 #include "geom/base/run_context.h"
-#include "geom/mesh/size_sites.h"
+#include "geom/mesh/size_points.h"
 #include "surfmesh/remesh/reference.h"
 #include "surfmesh/remesh/remesh_surface.h"
 
@@ -36,9 +36,9 @@ class SurfaceLimitTable {
 
 class RemeshSizes {
  public:
-  /// Computes the sizes required by options, patches, curvature, gaps and `asked`.
+  /// Computes the sizes required by options, patches, curvature, gaps and `requested`.
   /// \throws Error(bad_argument) like remesh_surface
-  RemeshSizes(Borrowed<const Reference> reference, const RemeshOptions& options, std::span<const PatchSurfaceOptions> patches, const SpaceSizes& asked,
+  RemeshSizes(Borrowed<const Reference> reference, const RemeshOptions& options, std::span<const PatchSurfaceOptions> patches, const SpaceSizes& requested,
               const RunContext& context);
 
   /// Returns the size in metres at a point on or near a triangle of the reference. Thread-safe, unless there is a user function (is_serial).
@@ -50,8 +50,8 @@ class RemeshSizes {
   void lower(TriangleId t, const Point& p, double size);
   void carry();
   /// Sets sizes at locations in space. They grow with the distance in space, and replace those of the previous call.
-  void ask_at(std::span<const SizeSite> sites, const RunContext& context);
-  bool is_serial() const { return static_cast<bool>(asked_.function); }
+  void request_at(std::span<const SizePoint> size_points, const RunContext& context);
+  bool is_serial() const { return static_cast<bool>(requested_.function); }
   double min_edge(TriangleId t) const { return min_edge_[t]; }
   double largest() const { return largest_; }
   double least() const;
@@ -63,11 +63,11 @@ class RemeshSizes {
   const Reference& r_;
   RemeshOptions options_;
   std::vector<PatchSurfaceOptions> patches_;
-  SpaceSizes asked_;
+  SpaceSizes requested_;
   double refinement_ = 1.0, slope_ = 0.2, largest_ = 0.0;
   Column<TriangleId, double> cap_, min_edge_, own_;  ///< own: size required by the curvature of the triangle's edges
   Column<VertexId, double> at_;
-  std::optional<SizeSites> sites_;
+  std::optional<SizePointTree> size_points_;
 };
 
 /// Returns the shortest edge in metres that options require anywhere. It is known before the sizes, and is the length over which turns of lines are measured.

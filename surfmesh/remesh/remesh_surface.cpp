@@ -86,8 +86,8 @@ void split_long(Remesher& remesher, const RemeshOptions& options) {
       .problem = "halving long edges did not end at " + std::to_string(n) + " triangles, " +
                  (held < allowed ? "more triangles would exceed the free memory of this machine" : "max_triangles is " + std::to_string(options.max_triangles)),
       .hint = std::string(k_fewer_triangles_hint)};
-  if (const auto [place, length] = remesher.shortest_to_halve(k_long); length > 0.0)
-    info.add_place(place, "edge of " + number_text(length, k_length_digits) + " m, longer than the requested length there");
+  if (const auto [location, length] = remesher.shortest_to_halve(k_long); length > 0.0)
+    info.add_location(location, "edge of " + number_text(length, k_length_digits) + " m, longer than the requested length there");
   throw Error(std::move(info));
 }
 
@@ -107,10 +107,10 @@ void grow_rows(Remesher& remesher, const Reference& reference, const RowLines& r
   if (const std::vector<RowReach> reaches = remesher.nose_reaches(); !reaches.empty()) {
     // Where rows did not reach as far as predicted, the curvature determines sizes again.
     sizes.cover(covered_by_noses(reference, reaches, context), context);
-    sizes.ask_at(remesher.row_ends(), context);
+    sizes.request_at(remesher.row_ends(), context);
     narrow_strips(remesher, options, sizes);
   } else {
-    sizes.ask_at(remesher.row_ends(), context);
+    sizes.request_at(remesher.row_ends(), context);
   }
   remesher.refresh_sizes();
   remesher.collapse_short(k_short, false);
@@ -164,7 +164,7 @@ void require_clear(const TriMesh& wall, const RunContext& context) {
                  .hint = "remesh requires a surface without self-intersections: repair{} removes crossings"};
   for (const auto& [i, j] : pairs.pairs) {
     const auto [a, b, c] = corners(wall, TriangleId(i));
-    info.add_place((a + b + c) / 3.0, "triangle " + std::to_string(i) + " with " + std::to_string(j));
+    info.add_location((a + b + c) / 3.0, "triangle " + std::to_string(i) + " with " + std::to_string(j));
     if (info.geometry.triangles.size() + 2 > k_max_geometry) continue;
     for (const std::uint32_t t : {i, j}) {
       const auto n = static_cast<std::uint32_t>(info.geometry.points.size());
@@ -177,24 +177,24 @@ void require_clear(const TriMesh& wall, const RunContext& context) {
 
 std::string percent_text(double share) { return number_text(100.0 * share, k_angle_digits) + " %"; }
 
-void require_worth(const NeedleCount& needles, double n_triangles, const char* what, const RemeshDemand& demand) {
-  const double share = static_cast<double>(needles.n) / std::max(1.0, n_triangles);
-  if (share <= demand.most_needles && needles.least_angle >= demand.least_angle) return;
+void require_improvement(const SliverCount& slivers, double n_triangles, const char* what, const RemeshDemand& demand) {
+  const double share = static_cast<double>(slivers.n) / std::max(1.0, n_triangles);
+  if (share <= demand.most_slivers && slivers.least_angle >= demand.least_angle) return;
   ErrorInfo info{.code = ErrorCode::geometry_failed,
                  .attempted = std::string(k_attempted),
-                 .problem = std::string(what) + " " + std::to_string(needles.n) + " sliver triangles, " + percent_text(share) +
-                            " of the triangles, smallest angle " + number_text(needles.least_angle / k_degree, k_angle_digits) +
-                            " degrees; the limits are at most " + percent_text(demand.most_needles) + " and at least " +
+                 .problem = std::string(what) + " " + std::to_string(slivers.n) + " sliver triangles, " + percent_text(share) +
+                            " of the triangles, smallest angle " + number_text(slivers.least_angle / k_degree, k_angle_digits) +
+                            " degrees; the limits are at most " + percent_text(demand.most_slivers) + " and at least " +
                             number_text(demand.least_angle / k_degree, k_angle_digits) + " degrees",
                  .hint = "remesh without this limit, or use wrap{}"};
-  info.add_place(needles.place, "the thinnest triangle");
+  info.add_location(slivers.location, "the thinnest triangle");
   throw Error(std::move(info));
 }
 
 /// Counts sliver triangles on edges between two corners of lines. Such edges stay, and the triangles on them are as long as the surrounding sizes.
-NeedleCount forced_needles(const Reference& reference, const RemeshSizes& sizes) {
+SliverCount forced_slivers(const Reference& reference, const RemeshSizes& sizes) {
   const TriMesh& mesh = *reference.mesh;
-  NeedleCount forced{.n = 0, .least_angle = k_half_turn};
+  SliverCount forced{.n = 0, .least_angle = k_half_turn};
   for (const TriangleId t : mesh.triangles.ids()) {
     for (int k = 0; k < 3; ++k) {
       const HalfedgeId h = halfedge(t, k);
@@ -202,10 +202,10 @@ NeedleCount forced_needles(const Reference& reference, const RemeshSizes& sizes)
       if (reference.line[h] == k_no_line || reference.is_corner[a] == 0 || reference.is_corner[b] == 0) continue;
       const Point &p = mesh.points[a], &q = mesh.points[b];
       const double angle = std::atan2(distance(p, q), k_short * sizes(0.5 * (p + q), t));
-      if (angle < k_needle_angle) ++forced.n;
+      if (angle < k_sliver_angle) ++forced.n;
       if (angle >= forced.least_angle) continue;
       forced.least_angle = angle;
-      forced.place = 0.5 * (p + q);
+      forced.location = 0.5 * (p + q);
     }
   }
   return forced;
@@ -249,21 +249,21 @@ void require_likeness(const RemeshReport& report, const RemeshDemand& demand) {
                  .attempted = std::string(k_attempted),
                  .problem = std::move(problem),
                  .hint = "remesh with a smaller max_edge, min_edge or curvature_angle, or use wrap{}"};
-  info.add_place(further.place, "the largest distance");
+  info.add_location(further.location, "the largest distance");
   throw Error(std::move(info));
 }
 
-RemeshResult remesh_surface(const TriMesh& wall, const RemeshOptions& options, std::span<const PatchSurfaceOptions> patches, const SpaceSizes& asked,
+RemeshResult remesh_surface(const TriMesh& wall, const RemeshOptions& options, std::span<const PatchSurfaceOptions> patches, const SpaceSizes& requested,
                             const RunContext& context) {
-  return remesh_surface(wall, options, patches, asked, RemeshDemand{}, context);
+  return remesh_surface(wall, options, patches, requested, RemeshDemand{}, context);
 }
 
-RemeshResult remesh_surface(const TriMesh& given, const RemeshOptions& options, std::span<const PatchSurfaceOptions> patches, const SpaceSizes& asked,
+RemeshResult remesh_surface(const TriMesh& given, const RemeshOptions& options, std::span<const PatchSurfaceOptions> patches, const SpaceSizes& requested,
                             const RemeshDemand& demand, const RunContext& context) {
   const StageTimer timer(context, "remesh");
   require_clear(given, context);
   ReferenceOptions reference_options{options.feature_angle, least_edge(given, options, patches, context), options.smooth, {}};
-  const std::optional<NoseCut> cut = cut_noses_if_asked(given, reference_options, options, patches, context);
+  const std::optional<NoseCut> cut = cut_noses_if_requested(given, reference_options, options, patches, context);
   const TriMesh& wall = cut ? cut->mesh : given;
   if (cut) reference_options.noses = cut->edges;
   Trouble trouble;
@@ -274,17 +274,17 @@ RemeshResult remesh_surface(const TriMesh& given, const RemeshOptions& options, 
   for (int round = 1;; ++round) {
     const Reference reference(wall, reference_options, trouble.kept, trouble.flat, context);
     const RowLines rows = find_row_lines(reference, SurfaceLimitTable(wall, reference.topology, options, patches), options, patches);
-    RemeshSizes sizes(reference, options, patches, asked, context);
+    RemeshSizes sizes(reference, options, patches, requested, context);
     if (const std::vector<RowReach> reaches = foreseen_reaches(reference, rows); !reaches.empty())
       sizes.cover(covered_by_noses(reference, reaches, context), context);
-    sizes.ask_at(sites_of_rows(reference, rows), context);
+    sizes.request_at(size_points_of_rows(reference, rows), context);
     for (const auto& [t, size] : trouble.sizes) {
       const auto [a, b, c] = corners(wall, t);
       sizes.lower(t, (a + b + c) / 3.0, size);
     }
     if (!trouble.sizes.empty()) sizes.carry();
     const double n_expected = sizes.n_expected();
-    if (round == 1) require_worth(forced_needles(reference, sizes), n_expected, "corners of lines, which are kept, force", demand);
+    if (round == 1) require_improvement(forced_slivers(reference, sizes), n_expected, "corners of lines, which are kept, force", demand);
     require_few(n_expected, 1.0, "the sizes require about ", options);
     Remesher remesher(reference, sizes, context);
     run_passes(remesher, reference, options, rows, sizes, context.part("round", 0.0, 0.8));
@@ -294,10 +294,10 @@ RemeshResult remesh_surface(const TriMesh& given, const RemeshOptions& options, 
     report.max_edge = sizes.largest();
     report.n_lines = static_cast<std::int64_t>(reference.lines.size());
     report.n_corners = std::count(reference.is_corner.begin(), reference.is_corner.end(), 1);
-    require_worth(count_needles(result.mesh), static_cast<double>(result.mesh.n_triangles()), "the new triangles have", demand);
+    require_improvement(count_slivers(result.mesh), static_cast<double>(result.mesh.n_triangles()), "the new triangles have", demand);
     const CrossingPairs pairs = find_crossings(result.mesh, context);
     if (pairs.total == 0) {
-      report.needles = remesher.needles(k_needle_angle);
+      report.slivers = remesher.slivers(k_sliver_angle);
       report.turned_before = turned_share(reference, k_turned_angle);
       report.turned = remesher.turned_share(k_turned_angle);
       report.rows = remesher.row_report();
@@ -314,7 +314,7 @@ RemeshResult remesh_surface(const TriMesh& given, const RemeshOptions& options, 
                      .problem = std::to_string(pairs.total) + " pairs of " + std::to_string(result.mesh.n_triangles()) +
                                 " new triangles cross: sheets of the input surface are much closer to each other than its edge length",
                      .hint = "smooth = false, a smaller max_edge, or wrap{} instead"};
-      for (const auto& [i, j] : pairs.pairs) info.add_place(corners(result.mesh, TriangleId(i))[0], "crosses triangle " + std::to_string(j));
+      for (const auto& [i, j] : pairs.pairs) info.add_location(corners(result.mesh, TriangleId(i))[0], "crosses triangle " + std::to_string(j));
       throw Error(std::move(info));
     }
     if (trouble.flat.empty()) {
@@ -344,8 +344,8 @@ RemeshResult remesh_surface(const TriMesh& given, const RemeshOptions& options, 
   }
   report.n_triangles_before = static_cast<std::int64_t>(given.n_triangles());
   report.n_kept = std::count(trouble.kept.begin(), trouble.kept.end(), 1);
-  report.n_needles = static_cast<std::int64_t>(report.needles.size());
-  if (report.needles.size() > k_max_places) report.needles.resize(k_max_places);
+  report.n_slivers = static_cast<std::int64_t>(report.slivers.size());
+  if (report.slivers.size() > k_max_locations) report.slivers.resize(k_max_locations);
   measure_angles(result.mesh, report);
   report.to_input = surface_distance(result.mesh, given, true, context);
   report.from_input = surface_distance(given, result.mesh, false, context);

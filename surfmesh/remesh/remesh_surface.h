@@ -53,7 +53,7 @@ struct RowReport {
 struct SurfaceDistance {
   double max = 0.0;      ///< m
   double mean = 0.0;     ///< m, mean over the samples
-  Point place{};         ///< location of the largest distance
+  Point location{};      ///< location of the largest distance
   double of_edge = 0.0;  ///< largest ratio of the distance to the longest edge of the new triangle there
 };
 
@@ -68,8 +68,8 @@ struct RemeshReport {
   double angle_quantile_1 = 0.0;               ///< rad: 1 % of the triangles have their smallest angle below this value
   double mean_radius_ratio = 0.0;              ///< mean weighted by area of 2 r / R, which is 1 for an equilateral triangle
   std::array<std::int64_t, 6> least_angles{};  ///< numbers of triangles by their smallest angle: below 10 degrees, below 20, and so on up to 60
-  std::int64_t n_needles = 0;                  ///< number of sliver triangles, with an angle below k_needle_angle
-  std::vector<ErrorPlace> needles;             ///< the worst sliver triangles, at most k_max_places, with the features that force them
+  std::int64_t n_slivers = 0;                  ///< number of sliver triangles, with an angle below k_sliver_angle
+  std::vector<ErrorLocation> slivers;          ///< the worst sliver triangles, at most k_max_locations, with the features that force them
   SurfaceDistance to_input;                    ///< from the new surface to the given one
   SurfaceDistance from_input;                  ///< from the given surface to the new one
   double turned_before = 0.0, turned = 0.0;  ///< fractions of the area of triangles turned by more than k_turned_angle from the smooth surface at a corner, of
@@ -81,7 +81,7 @@ struct RemeshReport {
 };
 
 /// Rad: triangles with a smaller angle are sliver triangles (docs/method/surface.md, "Sliver triangles").
-inline constexpr double k_needle_angle = 8.0 * std::numbers::pi / 180.0;
+inline constexpr double k_sliver_angle = 8.0 * std::numbers::pi / 180.0;
 
 /// Rad: triangles turned from the smooth surface by more than this angle do not represent it.
 inline constexpr double k_turned_angle = 10.0 * std::numbers::pi / 180.0;
@@ -103,27 +103,27 @@ struct RemeshResult {
 /// \throws Error(bad_argument) for sizes that are not positive, a rule that matches no patch or sets trailing_edge_cells or factors;
 /// Error(non_manifold_surface); Error(self_intersection) if the input crosses itself or most of the result does; Error(overflow) for more than max_triangles,
 /// before the work; Error(cancelled)
-RemeshResult remesh_surface(const TriMesh& wall, const RemeshOptions& options, std::span<const PatchSurfaceOptions> patches, const SpaceSizes& asked,
+RemeshResult remesh_surface(const TriMesh& wall, const RemeshOptions& options, std::span<const PatchSurfaceOptions> patches, const SpaceSizes& requested,
                             const RunContext& context);
 
 /// Returns several human-readable lines.
 std::string to_text(const RemeshReport& report);
 
 /// Sliver measures of a surface.
-struct NeedleCount {
+struct SliverCount {
   std::int64_t n = 0;        ///< number of triangles with an angle below the limit
   double least_angle = 0.0;  ///< rad, smallest angle; 0 for a surface without triangles
-  Point place{};             ///< middle of the triangle with the smallest angle
+  Point location{};          ///< middle of the triangle with the smallest angle
 };
 /// \param limit rad
-NeedleCount count_needles(const TriMesh& mesh, double limit = k_needle_angle);
-/// Returns true if layers and tetrahedra on a repaired or wrapped surface would fail quality gates. That is so if an angle is below k_worst_needle_angle, or if
-/// more than the fraction k_needle_share of the triangles have an angle below k_needle_angle.
-bool is_remesh_advised(const NeedleCount& needles, std::size_t n_triangles);
+SliverCount count_slivers(const TriMesh& mesh, double limit = k_sliver_angle);
+/// Returns true if layers and tetrahedra on a repaired or wrapped surface would fail quality gates. That is so if an angle is below k_worst_sliver_angle, or if
+/// more than the fraction k_sliver_share of the triangles have an angle below k_sliver_angle.
+bool is_remesh_advised(const SliverCount& slivers, std::size_t n_triangles);
 
 /// Rad: tetrahedra and prisms on triangles with a smaller angle fail the gates for dihedral angles anywhere.
-inline constexpr double k_worst_needle_angle = 1.0 * std::numbers::pi / 180.0;
-inline constexpr double k_needle_share = 0.005;
+inline constexpr double k_worst_sliver_angle = 1.0 * std::numbers::pi / 180.0;
+inline constexpr double k_sliver_share = 0.005;
 
 }  // namespace sterna::surfmesh
 

@@ -33,7 +33,7 @@ constexpr double k_regular_floor = 0.45;
 /// Quality of an inverted triangle, worse than any other.
 constexpr double k_folded = -1.0;
 /// Relative to the body's length: an open boundary lies in a plane if its coordinates differ by less than this.
-constexpr double k_rim_flat = 1e-5;
+constexpr double k_border_flat = 1e-5;
 /// Largest number of halving rounds, which gives at most 2^24 parts.
 constexpr int k_split_rounds = 24;
 /// Range of the length of a half, relative to the edge. Outside of it, the middle of the edge is held at a line or was projected to another location.
@@ -53,13 +53,13 @@ Remesher::Remesher(Borrowed<const Reference> reference, Borrowed<const RemeshSiz
     const HalfedgeId h = r_.lines[l].halfedges.front(), o = r_.topology.twin(h);
     locked_[l] = r_.is_kept[triangle_of(h)] != 0 || (o.is_valid() && r_.is_kept[triangle_of(o)] != 0) ? 1 : 0;
     if (!o.is_valid()) {
-      is_rim_.resize(locked_.size(), 0);
-      is_rim_[l] = 1;
+      is_border_.resize(locked_.size(), 0);
+      is_border_[l] = 1;
     }
   }
-  if (!is_rim_.empty()) flat_ = k_rim_flat * body_length(*r_.mesh);
+  if (!is_border_.empty()) flat_ = k_border_flat * body_length(*r_.mesh);
   for (WorkVertex& v : mesh_.vertices)
-    if (v.kind == VertexKind::face && v.out != k_none) v.normal = r_.normal(v.foot);
+    if (v.kind == VertexKind::face && v.out != k_none) v.normal = r_.normal(v.location);
   refresh_sizes();
   quality_.resize(mesh_.triangles.size());
   parallel_for(context_, quality_.size(), [&](std::size_t t) { update(static_cast<std::uint32_t>(t)); });
@@ -71,20 +71,20 @@ void Remesher::renumber() {
   parallel_for(context_, quality_.size(), [&](std::size_t t) { update(static_cast<std::uint32_t>(t)); });
 }
 
-double Remesher::wanted(std::uint32_t h) const {
+double Remesher::target_length(std::uint32_t h) const {
   const double a = mesh_.vertices[mesh_.from(h)].size, b = mesh_.vertices[mesh_.to(h)].size;
   return 2.0 * a * b / (a + b);
 }
 
-double Remesher::length_ratio(std::uint32_t h) const { return distance(mesh_.at(mesh_.from(h)), mesh_.at(mesh_.to(h))) / wanted(h); }
+double Remesher::length_ratio(std::uint32_t h) const { return distance(mesh_.at(mesh_.from(h)), mesh_.at(mesh_.to(h))) / target_length(h); }
 
 void Remesher::resize(WorkVertex& v, TriangleId t) const { v.size = sizes_(v.point, t); }
 
 void Remesher::refresh_sizes() {
   for (WorkVertex& v : mesh_.vertices) {
     if (v.out == k_none) continue;
-    if (v.kind == VertexKind::face) resize(v, v.foot.triangle);
-    else if (v.kind == VertexKind::line) resize(v, triangle_of(r_.lines[static_cast<std::size_t>(v.line)].halfedges[r_.line_place(v.line, v.s).segment]));
+    if (v.kind == VertexKind::face) resize(v, v.location.triangle);
+    else if (v.kind == VertexKind::line) resize(v, triangle_of(r_.lines[static_cast<std::size_t>(v.line)].halfedges[r_.line_location(v.line, v.s).segment]));
     else resize(v, triangle_of(r_.topology.outgoing(v.corner).front()));
   }
 }
@@ -98,7 +98,7 @@ Vec3 Remesher::normal_at(std::uint32_t number, TriangleId hint, const Point& tow
   const std::uint32_t region = r_.region[hint];
   const Vec3 way = normalized(towards - v.point);
   if (v.kind == VertexKind::line) {
-    const auto [segment, t] = r_.line_place(v.line, v.s);
+    const auto [segment, t] = r_.line_location(v.line, v.s);
     const FeatureLine& line = r_.lines[static_cast<std::size_t>(v.line)];
     const auto normal_on = [&](HalfedgeId h) {
       const double share = r_.topology.from(h) == line.vertices[segment] ? t : 1.0 - t;
@@ -131,23 +131,23 @@ Vec3 Remesher::normal_at(std::uint32_t number, TriangleId hint, const Point& tow
   return best.is_valid() ? r_.normals[best] : r_.triangle_normals[hint];
 }
 
-bool Remesher::is_at_rim(std::uint32_t number) const {
+bool Remesher::is_at_border(std::uint32_t number) const {
   const WorkVertex& v = mesh_.vertices[number];
-  if (v.kind == VertexKind::line) return is_rim_[static_cast<std::size_t>(v.line)] != 0;
+  if (v.kind == VertexKind::line) return is_border_[static_cast<std::size_t>(v.line)] != 0;
   if (v.kind != VertexKind::corner) return false;
   const auto out = r_.topology.outgoing(v.corner);
   return std::any_of(out.begin(), out.end(), [&](HalfedgeId h) { return !r_.topology.twin(h).is_valid() || !r_.topology.twin(previous(h)).is_valid(); });
 }
 
 /// Returns true for triangles in the plane of an open boundary. In a half model such a triangle would be a wall there, coincident with its mirror image.
-bool Remesher::lies_in_rim(const std::array<std::uint32_t, 3>& v, const std::array<Point, 3>& p) const {
-  if (is_rim_.empty()) return false;
+bool Remesher::lies_in_border(const std::array<std::uint32_t, 3>& v, const std::array<Point, 3>& p) const {
+  if (is_border_.empty()) return false;
   bool is_flat = false;
   for (std::size_t axis = 0; axis < 3; ++axis) {
     const auto [low, high] = std::minmax({p[0][axis], p[1][axis], p[2][axis]});
     is_flat = is_flat || high - low <= flat_;
   }
-  return is_flat && is_at_rim(v[0]) && is_at_rim(v[1]) && is_at_rim(v[2]);
+  return is_flat && is_at_border(v[0]) && is_at_border(v[1]) && is_at_border(v[2]);
 }
 
 /// Returns the mean ratio. Returns k_folded for a triangle that is inverted against the reference, or that lies in the plane of an open boundary.
@@ -155,7 +155,7 @@ double Remesher::quality_of(const std::array<std::uint32_t, 3>& v, const std::ar
   const Vec3 n = cross(p[1] - p[0], p[2] - p[0]);
   const double area = norm(n);
   const Point middle = (p[0] + p[1] + p[2]) / 3.0;
-  if (lies_in_rim(v, p)) return k_folded;
+  if (lies_in_border(v, p)) return k_folded;
   Vec3 seen;
   for (const std::uint32_t k : v)
     if (mesh_.vertices[k].kind == VertexKind::face) seen = mesh_.vertices[k].normal;
@@ -219,10 +219,10 @@ double Remesher::s_on_line(std::uint32_t v, std::int32_t line) const {
 
 void Remesher::put_on_face(WorkVertex& v, const Point& p, TriangleId start) const {
   v.kind = VertexKind::face;
-  v.foot = r_.nearest(p, start);
-  v.point = r_.point(v.foot);
-  v.normal = r_.normal(v.foot);
-  resize(v, v.foot.triangle);
+  v.location = r_.nearest(p, start);
+  v.point = r_.point(v.location);
+  v.normal = r_.normal(v.location);
+  resize(v, v.location.triangle);
 }
 
 void Remesher::put_on_line(WorkVertex& v, std::int32_t line, double s) const {
@@ -230,7 +230,7 @@ void Remesher::put_on_line(WorkVertex& v, std::int32_t line, double s) const {
   v.line = line;
   v.s = s;
   v.point = r_.line_point(line, s);
-  resize(v, triangle_of(r_.lines[static_cast<std::size_t>(line)].halfedges[r_.line_place(line, s).segment]));
+  resize(v, triangle_of(r_.lines[static_cast<std::size_t>(line)].halfedges[r_.line_location(line, s).segment]));
 }
 
 WorkVertex Remesher::middle(std::uint32_t h) const {
@@ -245,7 +245,7 @@ WorkVertex Remesher::middle(std::uint32_t h) const {
   double least = norm2(nearest_on_triangle(p, corners(*r_.mesh, start)) - p);
   for (const std::uint32_t k : {a, b}) {
     if (mesh_.vertices[k].kind != VertexKind::face) continue;
-    const TriangleId t = mesh_.vertices[k].foot.triangle;
+    const TriangleId t = mesh_.vertices[k].location.triangle;
     if (const double d = norm2(nearest_on_triangle(p, corners(*r_.mesh, t)) - p); d < least) {
       least = d;
       start = t;
@@ -348,12 +348,12 @@ bool Remesher::is_collapse_legal(std::uint32_t h) const {
     if (!is_behind_front && (mesh_.twin[p] == k_none || mesh_.twin[q] == k_none)) return false;
     if (mesh_.line[p] != k_no_line && mesh_.line[q] != k_no_line) return false;
     int n = 0;
-    bool has_rim = false;
+    bool has_border = false;
     mesh_.for_out(mesh_.apex(e), [&](std::uint32_t x) {
       ++n;
-      has_rim = has_rim || mesh_.twin[x] == k_none;
+      has_border = has_border || mesh_.twin[x] == k_none;
     });
-    if (n <= (has_rim ? 2 : 3)) return false;
+    if (n <= (has_border ? 2 : 3)) return false;
   }
   std::array<std::uint32_t, 64> ring;
   std::size_t n_ring = 0;
@@ -509,7 +509,7 @@ std::vector<Remesher::Strip> Remesher::strips() const {
   return found;
 }
 
-std::vector<ErrorPlace> Remesher::needles(double angle) const {
+std::vector<ErrorLocation> Remesher::slivers(double angle) const {
   constexpr double k_to_degrees = 180.0 / std::numbers::pi;
   std::vector<std::pair<double, std::uint32_t>> found;
   for (std::uint32_t t = 0; t < mesh_.triangles.size(); ++t) {
@@ -520,7 +520,7 @@ std::vector<ErrorPlace> Remesher::needles(double angle) const {
     if (least < angle) found.emplace_back(least, t);
   }
   std::sort(found.begin(), found.end());
-  std::vector<ErrorPlace> places;
+  std::vector<ErrorLocation> locations;
   for (const auto& [least, t] : found) {
     const auto& v = mesh_.triangles[t];
     int n_corners = 0, n_lines = 0, n_edges = 0;
@@ -534,9 +534,9 @@ std::vector<ErrorPlace> Remesher::needles(double angle) const {
     text << least * k_to_degrees << " degrees on patch " << r_.mesh->patches[r_.mesh->triangle_patch[mesh_.hint[t]]].name << ": " << n_corners << " corners, "
          << n_lines << " vertices on lines, " << n_edges << " edges of lines";
     if (is_kept(t)) text << ", kept from the input";
-    places.push_back({(mesh_.at(v[0]) + mesh_.at(v[1]) + mesh_.at(v[2])) / 3.0, text.str()});
+    locations.push_back({(mesh_.at(v[0]) + mesh_.at(v[1]) + mesh_.at(v[2])) / 3.0, text.str()});
   }
-  return places;
+  return locations;
 }
 
 TriMesh Remesher::result() const {
@@ -585,20 +585,20 @@ std::vector<TriangleId> Remesher::reference_triangles_of(const std::vector<std::
   const auto mark_around = [&](VertexId v) {
     for (const HalfedgeId h : r_.topology.outgoing(v)) is_found[triangle_of(h).index()] = 1;
   };
-  std::vector<std::array<TriangleId, 3>> feet;
+  std::vector<std::array<TriangleId, 3>> hints;
   for (const RowCell& cell : row_cells()) {
     const RowEdge& edge = row_edges_[cell.edge];
-    std::array<TriangleId, 3> foot;
+    std::array<TriangleId, 3> location;
     for (std::size_t k = 0; k < 3; ++k) {
       const auto& [side, row] = cell.corners[k];
-      foot[k] = row == 0 ? edge.hint : columns_[side == 0 ? edge.a_column : edge.b_column].rows[row].foot.triangle;
+      location[k] = row == 0 ? edge.hint : columns_[side == 0 ? edge.a_column : edge.b_column].rows[row].location.triangle;
     }
-    feet.push_back(foot);
+    hints.push_back(location);
   }
   for (const auto& pair : pairs)
     for (const std::uint32_t i : pair) {
       if (i >= left.size()) {
-        for (const TriangleId t : feet[i - left.size()]) is_found[t.index()] = 1;
+        for (const TriangleId t : hints[i - left.size()]) is_found[t.index()] = 1;
         continue;
       }
       const std::uint32_t t = left[i];
@@ -609,9 +609,9 @@ std::vector<TriangleId> Remesher::reference_triangles_of(const std::vector<std::
       std::vector<TriangleId> stack{mesh_.hint[t]};
       for (const std::uint32_t k : v) {
         const WorkVertex& w = mesh_.vertices[k];
-        if (w.kind == VertexKind::face) stack.push_back(w.foot.triangle);
+        if (w.kind == VertexKind::face) stack.push_back(w.location.triangle);
         else if (w.kind == VertexKind::corner) mark_around(w.corner);
-        else stack.push_back(triangle_of(r_.lines[static_cast<std::size_t>(w.line)].halfedges[r_.line_place(w.line, w.s).segment]));
+        else stack.push_back(triangle_of(r_.lines[static_cast<std::size_t>(w.line)].halfedges[r_.line_location(w.line, w.s).segment]));
       }
       stack.push_back(r_.nearest((mesh_.at(v[0]) + mesh_.at(v[1]) + mesh_.at(v[2])) / 3.0, stack.back()).triangle);
       std::vector<TriangleId> seen;

@@ -49,7 +49,7 @@ class Remesher {
   /// afterwards. \pre no rows have grown yet
   void grow_rows(std::span<const LineRows> rows);
   /// Returns the outer ends of rows with the edge lengths there. Sizes have to increase from these values.
-  std::vector<SizeSite> row_ends() const;
+  std::vector<SizePoint> row_ends() const;
   /// Returns the reach of rows at all locations of noses, for each side.
   std::vector<RowReach> nose_reaches() const;
   RowReport row_report() const;
@@ -63,7 +63,7 @@ class Remesher {
   };
   std::vector<Strip> strips() const;
   /// Returns the triangles with an angle below `angle`, smallest first, and the lines and corners there.
-  std::vector<ErrorPlace> needles(double angle) const;
+  std::vector<ErrorLocation> slivers(double angle) const;
   /// Returns the fraction of the area of triangles turned by more than `angle` from the reference at a corner. Rows are not included.
   double turned_share(double angle) const;
   /// Returns the remaining vertices and triangles, in their previous order.
@@ -73,7 +73,7 @@ class Remesher {
   std::vector<TriangleId> reference_triangles_of(const std::vector<std::array<std::uint32_t, 2>>& pairs, int rings) const;
 
  private:
-  double wanted(std::uint32_t h) const;
+  double target_length(std::uint32_t h) const;
   double length_ratio(std::uint32_t h) const;
   bool is_locked(std::uint32_t h) const { return mesh_.line[h] != k_no_line && locked_[static_cast<std::size_t>(mesh_.line[h])] != 0; }
   bool is_kept(std::uint32_t t) const { return r_.is_kept[mesh_.hint[t]] != 0; }
@@ -86,8 +86,8 @@ class Remesher {
     mesh_.for_out(v, [&](std::uint32_t h) { update(h / 3); });
   }
   double quality_of(const std::array<std::uint32_t, 3>& v, const std::array<Point, 3>& p, TriangleId hint) const;
-  bool is_at_rim(std::uint32_t v) const;
-  bool lies_in_rim(const std::array<std::uint32_t, 3>& v, const std::array<Point, 3>& p) const;
+  bool is_at_border(std::uint32_t v) const;
+  bool lies_in_border(const std::array<std::uint32_t, 3>& v, const std::array<Point, 3>& p) const;
   double fan_quality(std::uint32_t v) const;
   double fan_quality_now(std::uint32_t v, double floor) const;
   std::uint32_t valence(std::uint32_t v) const;
@@ -119,7 +119,7 @@ class Remesher {
     double spacing = 0.0;         ///< m, mean length of the two edges along the line
     double room = 0.0;            ///< m: available height for the rows
     double climbed = 0.0;         ///< m, height of all rows made so far
-    const SideRows* wish = nullptr;
+    const SideRows* side_rows = nullptr;
     bool is_growing = true;
     bool is_nose = false;
     std::size_t n_rows() const { return rows.size() - 1; }
@@ -159,11 +159,11 @@ class Remesher {
   const RemeshSizes& sizes_;
   RunContext context_;
   WorkMesh mesh_;
-  std::vector<double> quality_;         ///< quality of each triangle; k_folded if it is inverted against the reference
-  std::vector<std::uint8_t> locked_;    ///< flags of the lines that border kept triangles
-  std::vector<std::uint8_t> is_rim_;    ///< flags of the lines that are open boundaries; empty if there is none
-  double flat_ = 0.0;                   ///< m
-  std::int32_t front_ = k_no_line - 1;  ///< placeholder for the line of the border's edges; locked
+  std::vector<double> quality_;          ///< quality of each triangle; k_folded if it is inverted against the reference
+  std::vector<std::uint8_t> locked_;     ///< flags of the lines that border kept triangles
+  std::vector<std::uint8_t> is_border_;  ///< flags of the lines that are open boundaries; empty if there is none
+  double flat_ = 0.0;                    ///< m
+  std::int32_t front_ = k_no_line - 1;   ///< placeholder for the line of the border's edges; locked
   std::vector<LineColumn> columns_;
   std::vector<RowEdge> row_edges_;
   /// Vertices of the opened mesh, each with the line vertex from which it was copied; sorted by the former.

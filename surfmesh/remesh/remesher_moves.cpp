@@ -22,9 +22,9 @@ constexpr double k_search_gain = 1e-4;
 constexpr double k_short_in_trouble = 1.0;
 constexpr double k_long_after_trouble = 1.7;
 /// Mean ratio of a triangle with a corner of about 10 degrees. To improve worse triangles, edges of any length may be collapsed, and edges of up to
-/// k_long_for_needles target lengths may remain.
-constexpr double k_needle_ratio = 0.3;
-constexpr double k_long_for_needles = 3.0;
+/// k_long_for_slivers target lengths may remain.
+constexpr double k_sliver_ratio = 0.3;
+constexpr double k_long_for_slivers = 3.0;
 constexpr std::size_t k_move_chunk = 256;
 
 }  // namespace
@@ -86,7 +86,7 @@ WorkVertex Remesher::smoothed(std::uint32_t number, double share) const {
   Vec3 way = sum / (3.0 * weights) - v.point;
   const Vec3& n = v.normal;
   way = way - dot(way, n) * n;
-  put_on_face(moved, v.point + share * way, v.foot.triangle);
+  put_on_face(moved, v.point + share * way, v.location.triangle);
   return moved;
 }
 
@@ -148,7 +148,7 @@ bool Remesher::search(std::uint32_t number) {
       for (int k = 0; k < k_search_directions; ++k) {
         const double angle = 2.0 * std::numbers::pi * k / k_search_directions;
         WorkVertex moved = start;
-        put_on_face(moved, start.point + length * (std::cos(angle) * u + std::sin(angle) * w), start.foot.triangle);
+        put_on_face(moved, start.point + length * (std::cos(angle) * u + std::sin(angle) * w), start.location.triangle);
         look(moved);
       }
     }
@@ -158,11 +158,11 @@ bool Remesher::search(std::uint32_t number) {
   return has_moved;
 }
 
-std::int64_t Remesher::improve(double wanted_quality) {
+std::int64_t Remesher::improve(double target_quality) {
   std::vector<std::pair<double, std::uint32_t>> bad;
   for (std::uint32_t t = 0; t < mesh_.triangles.size(); ++t) {
     if (mesh_.is_gone(t) || is_kept(t)) continue;
-    if (const double q = quality(t); q < wanted_quality) bad.emplace_back(q, t);
+    if (const double q = quality(t); q < target_quality) bad.emplace_back(q, t);
   }
   std::sort(bad.begin(), bad.end());
   std::int64_t n = 0;
@@ -170,15 +170,15 @@ std::int64_t Remesher::improve(double wanted_quality) {
   for (const auto& [was, t] : bad) {
     if (mesh_.is_gone(t)) continue;
     const double q = quality(t);
-    if (q >= wanted_quality) continue;
+    if (q >= target_quality) continue;
     std::array<std::uint32_t, 3> edges{3 * t, 3 * t + 1, 3 * t + 2};
     std::sort(edges.begin(), edges.end(), [&](std::uint32_t a, std::uint32_t b) { return std::pair(length2(a), a) < std::pair(length2(b), b); });
     bool is_done = false;
     for (std::size_t k = 3; k-- > 0 && !is_done;) is_done = try_flip(edges[k], k_search_gain);
-    const bool is_needle = q < k_needle_ratio;
-    for (std::size_t k = 0; k < (is_needle ? 3 : 2) && !is_done; ++k)
-      is_done = !is_locked(edges[k]) && (is_needle || length_ratio(edges[k]) < k_short_in_trouble) &&
-                try_collapse(edges[k], q + k_search_gain, is_needle ? k_long_for_needles : k_long_after_trouble);
+    const bool is_sliver = q < k_sliver_ratio;
+    for (std::size_t k = 0; k < (is_sliver ? 3 : 2) && !is_done; ++k)
+      is_done = !is_locked(edges[k]) && (is_sliver || length_ratio(edges[k]) < k_short_in_trouble) &&
+                try_collapse(edges[k], q + k_search_gain, is_sliver ? k_long_for_slivers : k_long_after_trouble);
     for (std::size_t k = 0; k < 3 && !is_done; ++k) is_done = search(mesh_.triangles[t][k]);
     if (is_done) ++n;
   }

@@ -112,7 +112,7 @@ void Remesher::copy_fan(std::uint32_t v, std::uint32_t first, Opening& opening) 
   opening.borders.push_back({in, first});
   LineColumn column;
   column.vertex = copy;
-  column.wish = opening.side_of[first];
+  column.side_rows = opening.side_of[first];
   columns_.push_back(column);
 }
 
@@ -131,13 +131,13 @@ void Remesher::start_column(std::size_t number, const std::vector<std::size_t>& 
   const FeatureLine& line = r_.lines[static_cast<std::size_t>(l)];
   column.is_nose = opening.rows(l).is_nose;
   const double s_here = s_on_line(column.vertex, l);
-  const std::size_t segment = r_.line_place(l, s_here).segment;
+  const std::size_t segment = r_.line_location(l, s_here).segment;
   HalfedgeId h = line.halfedges[segment];
   if ((r_.topology.from(h) == line.vertices[segment]) != (s_here < s_on_line(column.after, l))) h = r_.topology.twin(h);
-  WorkVertex foot = mesh_.vertices[column.vertex];
-  foot.foot = r_.nearest(p, triangle_of(h));
-  foot.normal = r_.normal(foot.foot);
-  column.rows.push_back(foot);
+  WorkVertex location = mesh_.vertices[column.vertex];
+  location.location = r_.nearest(p, triangle_of(h));
+  location.normal = r_.normal(location.location);
+  column.rows.push_back(location);
   column.room = k_share_of_chord * width_across(r_, h, 1e3 * column.spacing);
 }
 
@@ -235,7 +235,7 @@ bool Remesher::make_room(std::uint32_t v, const Point& towards) {
   mesh_.for_out(v, [&](std::uint32_t h) {
     if (mesh_.twin[h] == k_none || !(dot(mesh_.at(mesh_.to(h)) - mesh_.at(v), way) > 0.0)) return;
     const double length = std::min(distance(mesh_.at(v), mesh_.at(mesh_.to(h))), distance(towards, mesh_.at(mesh_.to(h))));
-    if (length < k_short_before_border * wanted(h)) near.emplace_back(length, mesh_.to(h));
+    if (length < k_short_before_border * target_length(h)) near.emplace_back(length, mesh_.to(h));
   });
   std::sort(near.begin(), near.end());
   for (const auto& [length, w] : near) {
@@ -269,7 +269,8 @@ bool Remesher::advance(LineColumn& c, const WorkVertex& target, double height) {
       WorkVertex next = target;
       if (share < 1.0) {
         const WorkVertex& here = mesh_.vertices[v];
-        put_on_face(next, here.point + share * (target.point - here.point), here.kind == VertexKind::face ? here.foot.triangle : c.rows[0].foot.triangle);
+        put_on_face(next, here.point + share * (target.point - here.point),
+                    here.kind == VertexKind::face ? here.location.triangle : c.rows[0].location.triangle);
       }
       if (!place(v, next, std::min(k_border_floor, 0.9 * fan_quality(v)))) continue;
       has_moved = true;
@@ -297,11 +298,11 @@ bool Remesher::grow_column(LineColumn& c, std::size_t row) {
   if (n_rows_of(c.before_column) + 1 < row || n_rows_of(c.after_column) + 1 < row) return false;
   const WorkVertex top = c.rows.back();
   const Vec3 way = row_direction(c, row);
-  double height = row == 1 ? c.wish->first : c.wish->growth * c.heights.back();
+  double height = row == 1 ? c.side_rows->first : c.side_rows->growth * c.heights.back();
   const auto step = [&](double length, WorkVertex& to) {
     double reach = length, done = 0.0;
     for (int i = 0; i < k_row_iterations; ++i) {
-      put_on_face(to, top.point + reach * way, top.foot.triangle);
+      put_on_face(to, top.point + reach * way, top.location.triangle);
       done = distance(to.point, top.point);
       if (!(done > 0.1 * length)) return false;
       if (std::abs(done - length) <= k_row_tolerance * length) break;
@@ -312,8 +313,8 @@ bool Remesher::grow_column(LineColumn& c, std::size_t row) {
   WorkVertex target;
   if (!step(height, target)) return false;
   // The curvature angle limits the turn of the surface across a row. It does not reduce the height of the row below min_edge.
-  if (const double turn = angle_between(top.normal, target.normal); turn > c.wish->curvature_angle) {
-    const double lower = std::max(height * c.wish->curvature_angle / turn, std::min(height, c.wish->min_edge));
+  if (const double turn = angle_between(top.normal, target.normal); turn > c.side_rows->curvature_angle) {
+    const double lower = std::max(height * c.side_rows->curvature_angle / turn, std::min(height, c.side_rows->min_edge));
     if (lower < height) {
       height = lower;
       if (!step(height, target)) return false;
@@ -365,8 +366,8 @@ std::vector<Remesher::RowCell> Remesher::row_cells() const {
   return cells;
 }
 
-std::vector<SizeSite> Remesher::row_ends() const {
-  std::vector<SizeSite> ends;
+std::vector<SizePoint> Remesher::row_ends() const {
+  std::vector<SizePoint> ends;
   for (const LineColumn& c : columns_) ends.push_back({c.rows.back().point, c.spacing});
   return ends;
 }

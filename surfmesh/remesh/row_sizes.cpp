@@ -16,8 +16,8 @@ constexpr double k_reach_offset = 1e-3;
 
 }  // namespace
 
-std::vector<SizeSite> sites_of_rows(const Reference& reference, const RowLines& rows) {
-  std::vector<SizeSite> sites;
+std::vector<SizePoint> size_points_of_rows(const Reference& reference, const RowLines& rows) {
+  std::vector<SizePoint> size_points;
   for (const LineRows& l : rows.lines) {
     const double length = reference.lines[static_cast<std::size_t>(l.line)].length();
     const auto size_at = [&](double s) {
@@ -27,10 +27,10 @@ std::vector<SizeSite> sites_of_rows(const Reference& reference, const RowLines& 
       if (!l.is_going_on[1]) size = std::min(size, l.at_ends + k_change_at_ends * (length - s));
       return size;
     };
-    for (double s = 0.0; s < length; s += size_at(s)) sites.push_back({reference.line_point(l.line, s), size_at(s)});
-    sites.push_back({reference.line_point(l.line, length), size_at(length)});
+    for (double s = 0.0; s < length; s += size_at(s)) size_points.push_back({reference.line_point(l.line, s), size_at(s)});
+    size_points.push_back({reference.line_point(l.line, length), size_at(length)});
   }
-  return sites;
+  return size_points;
 }
 
 std::vector<RowReach> foreseen_reaches(const Reference& reference, const RowLines& rows) {
@@ -42,7 +42,7 @@ std::vector<RowReach> foreseen_reaches(const Reference& reference, const RowLine
     for (const SideRows& side : l.sides)
       if (side.is_any) height = std::max(height, (k_isotropic_height * l.longest * side.growth - side.first) / (side.growth - 1.0));
     noses.lines = {l};
-    for (const SizeSite& site : sites_of_rows(reference, noses)) reaches.push_back({site.point, height * site.size / l.longest});
+    for (const SizePoint& size_point : size_points_of_rows(reference, noses)) reaches.push_back({size_point.point, height * size_point.size / l.longest});
   }
   return reaches;
 }
@@ -55,11 +55,11 @@ Column<VertexId, std::uint8_t> covered_by_noses(const Reference& reference, std:
   for (const RowReach& reach : reaches) largest = std::max(largest, reach.height);
   // Each size starts from the largest height minus the height here, and grows by 1 with the distance. Within the height of the rows the size is therefore at
   // most the largest height.
-  std::vector<SizeSite> sites;
+  std::vector<SizePoint> size_points;
   for (const RowReach& reach : reaches)
-    if (reach.height > 0.0) sites.push_back({reach.point, (largest - reach.height) + k_reach_offset * largest});
-  if (sites.empty()) return covered;
-  const SizeSites tree(sites, 1.0, context);
+    if (reach.height > 0.0) size_points.push_back({reach.point, (largest - reach.height) + k_reach_offset * largest});
+  if (size_points.empty()) return covered;
+  const SizePointTree tree(size_points, 1.0, context);
   parallel_for(context, covered.size(), [&](std::size_t v) {
     covered[VertexId(v)] = tree.smallest(reference.mesh->points[VertexId(v)], {.cap = 2.0 * largest}) <= (1.0 + k_reach_offset) * largest ? 1 : 0;
   });

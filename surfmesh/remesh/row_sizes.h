@@ -6,14 +6,14 @@
 #include <vector>
 
 #include "geom/base/run_context.h"
-#include "geom/mesh/size_sites.h"
+#include "geom/mesh/size_points.h"
 #include "surfmesh/remesh/line_rows.h"
 
 namespace sterna::surfmesh {
 
 /// Returns target edge lengths along lines with rows, at locations no farther apart than that length. They are smaller towards the ends of noses, where rows
 /// end.
-std::vector<SizeSite> sites_of_rows(const Reference& reference, const RowLines& rows);
+std::vector<SizePoint> size_points_of_rows(const Reference& reference, const RowLines& rows);
 
 /// Height of the rows above a location of a line.
 struct RowReach {

@@ -188,7 +188,7 @@ WorkMesh work_mesh_of(const Reference& r) {
       WorkVertex& vertex = work.vertices[v.index()];
       vertex.point = mesh.points[v];
       vertex.out = h.value();
-      vertex.foot = {t, k == 1 ? 1.0 : 0.0, k == 2 ? 1.0 : 0.0};
+      vertex.location = {t, k == 1 ? 1.0 : 0.0, k == 2 ? 1.0 : 0.0};
       vertex.corner = v;
       if (r.is_corner[v] != 0) vertex.kind = VertexKind::corner;
     }

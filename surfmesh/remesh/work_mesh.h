@@ -21,8 +21,8 @@ struct WorkVertex {
   VertexKind kind = VertexKind::face;
   std::int32_t line = k_no_line;  ///< number of the line; for kind line only
   double s = 0.0;                 ///< m, location along the line; for kind line only
-  Foot foot;                      ///< location on the reference; for kind face only
-  Vec3 normal;                    ///< the reference's normal at the foot; for kind face only
+  ReferenceLocation location;     ///< location on the reference; for kind face only
+  Vec3 normal;                    ///< the reference's normal at the location; for kind face only
   VertexId corner;                ///< vertex of the reference; for kind corner only
   std::uint32_t out = k_none;     ///< a half-edge that begins here; k_none: the vertex is deleted
   bool is_fixed = false;          ///< on a line with rows, or at the outer end of rows: neither moved nor removed

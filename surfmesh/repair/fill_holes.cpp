@@ -14,7 +14,7 @@
 namespace sterna::surfmesh {
 namespace {
 
-constexpr double k_flat_rim = 2e-3;      ///< relative to a hole's diameter: a boundary is flat if it is nearer to a plane than this
+constexpr double k_flat_border = 2e-3;   ///< relative to a hole's diameter: a boundary is flat if it is nearer to a plane than this
 constexpr double k_same_plane = 1e-6;    ///< relative to L: loops are in one plane within this distance
 constexpr double k_full_half = 0.35;     ///< relative to the longest side of the box in the plane: smallest extent of the opening of a half model
 constexpr double k_origin_half = 0.1;    ///< the same limit if the plane passes through the origin
@@ -27,14 +27,14 @@ constexpr std::size_t k_smooth_edges = 4;  ///< holes with fewer edges need no n
 
 using Loop = std::vector<std::uint32_t>;
 
-struct RimShape {
+struct HoleShape {
   Vec3 center, normal;    ///< normal: unit, right-handed along the loop
   double diameter = 0.0;  ///< m, diameter of the box
   double off = 0.0;       ///< m, largest distance from the plane
 };
 
-RimShape shape_of(const RepairState& state, const Loop& loop) {
-  RimShape shape;
+HoleShape shape_of(const RepairState& state, const Loop& loop) {
+  HoleShape shape;
   Box box;
   for (const std::uint32_t v : loop) {
     shape.center += state.points[v] / static_cast<double>(loop.size());
@@ -73,9 +73,9 @@ Fans fans_of(const RepairState& state) {
   return fans;
 }
 
-HoleRim rim_of(const RepairState& state, const Fans& fans, const Loop& loop) {
-  HoleRim rim;
-  rim.n_loop = static_cast<std::uint32_t>(loop.size());
+HoleBorder hole_border_of(const RepairState& state, const Fans& fans, const Loop& loop) {
+  HoleBorder border;
+  border.n_loop = static_cast<std::uint32_t>(loop.size());
   std::set<std::uint32_t> facets;
   std::set<std::uint32_t> front(loop.begin(), loop.end());
   for (int ring = 0; ring < k_rings; ++ring) {
@@ -87,20 +87,20 @@ HoleRim rim_of(const RepairState& state, const Fans& fans, const Loop& loop) {
   }
   std::map<std::uint32_t, std::uint32_t> number;
   for (const std::uint32_t v : loop) {
-    number[v] = static_cast<std::uint32_t>(rim.points.size());
-    rim.points.push_back(state.points[v]);
+    number[v] = static_cast<std::uint32_t>(border.points.size());
+    border.points.push_back(state.points[v]);
   }
   for (const std::uint32_t t : facets) {
     std::array<std::uint32_t, 3> triangle{};
     for (std::size_t k = 0; k < 3; ++k) {
       const std::uint32_t v = state.facets[t][k];
-      const auto [found, is_new] = number.try_emplace(v, static_cast<std::uint32_t>(rim.points.size()));
-      if (is_new) rim.points.push_back(state.points[v]);
+      const auto [found, is_new] = number.try_emplace(v, static_cast<std::uint32_t>(border.points.size()));
+      if (is_new) border.points.push_back(state.points[v]);
       triangle[k] = found->second;
     }
-    rim.triangles.push_back(triangle);
+    border.triangles.push_back(triangle);
   }
-  return rim;
+  return border;
 }
 
 /// Returns the patch to which most facets along the loop belong.
@@ -164,12 +164,12 @@ bool runs_along(const std::vector<Loop>& loops, const HolePatch& patch) {
   return n_against == 0 || n_along == 0;
 }
 
-bool fill_one(RepairState& state, const Fans& fans, const Loop& loop, const RimShape& shape, FacetMark mark, RepairKind kind) {
+bool fill_one(RepairState& state, const Fans& fans, const Loop& loop, const HoleShape& shape, FacetMark mark, RepairKind kind) {
   HolePatch patch;
   if (loop.size() == 3) patch.triangles.push_back({0, 1, 2});
-  else if (shape.off <= k_flat_rim * shape.diameter || mark == FacetMark::cap) patch = fill_flat(points_of(state, {loop}), shape.normal);
+  else if (shape.off <= k_flat_border * shape.diameter || mark == FacetMark::cap) patch = fill_flat(points_of(state, {loop}), shape.normal);
   if (patch.triangles.empty())
-    patch = fill_curved(rim_of(state, fans, loop), loop.size() > k_smooth_edges && kind == RepairKind::filled && mark != FacetMark::cap);
+    patch = fill_curved(hole_border_of(state, fans, loop), loop.size() > k_smooth_edges && kind == RepairKind::filled && mark != FacetMark::cap);
   if (patch.triangles.empty()) return false;
   add_patch(state, {loop}, patch, patch_around(state, fans, loop), mark, kind, shape.diameter);
   return true;
@@ -200,7 +200,8 @@ struct HalfPlane {
 };
 
 /// Returns all loops near one end of the box on this axis, if they form the opening of a half model.
-std::optional<HalfPlane> find_half(const RepairState& state, const std::vector<Loop>& loops, std::size_t axis, bool is_low, bool is_asked, double tolerance) {
+std::optional<HalfPlane> find_half(const RepairState& state, const std::vector<Loop>& loops, std::size_t axis, bool is_low, bool is_requested,
+                                   double tolerance) {
   Box box;
   for (const Facet& f : state.facets)
     for (const std::uint32_t v : f) box.add(state.points[v]);
@@ -210,11 +211,11 @@ std::optional<HalfPlane> find_half(const RepairState& state, const std::vector<L
   double sum = 0.0;
   std::size_t n = 0;
   for (std::size_t i = 0; i < loops.size(); ++i) {
-    Box rim;
-    for (const std::uint32_t v : loops[i]) rim.add(state.points[v]);
-    if (rim.max[axis] - rim.min[axis] > 2.0 * tolerance || std::abs(rim.center()[axis] - end) > 2.0 * tolerance) continue;
+    Box border;
+    for (const std::uint32_t v : loops[i]) border.add(state.points[v]);
+    if (border.max[axis] - border.min[axis] > 2.0 * tolerance || std::abs(border.center()[axis] - end) > 2.0 * tolerance) continue;
     plane.loops.push_back(i);
-    opening.add(rim);
+    opening.add(border);
     for (const std::uint32_t v : loops[i]) {
       sum += state.points[v][axis];
       ++n;
@@ -240,9 +241,9 @@ std::optional<HalfPlane> find_half(const RepairState& state, const std::vector<L
   }
   double open = 0.0;
   for (const std::size_t i : plane.loops) open += opening_area(state, loops[i]);
-  if (!is_asked && open > k_sheet_share * area_of(state)) return std::nullopt;
-  if (!is_asked && covered > k_covered_share * open) return std::nullopt;
-  if (!is_asked && plane.share < (plane.at == 0.0 ? k_origin_half : k_full_half)) return std::nullopt;
+  if (!is_requested && open > k_sheet_share * area_of(state)) return std::nullopt;
+  if (!is_requested && covered > k_covered_share * open) return std::nullopt;
+  if (!is_requested && plane.share < (plane.at == 0.0 ? k_origin_half : k_full_half)) return std::nullopt;
   return plane;
 }
 
@@ -274,8 +275,8 @@ void close_ways_out(RepairState& state, const RepairOptions& options) {
             way.push_back(v);
           } else if (!way.empty()) {
             way.push_back(v);
-            const RimShape shape = shape_of(state, way);
-            const bool is_flat = shape.off <= k_flat_rim * shape.diameter;
+            const HoleShape shape = shape_of(state, way);
+            const bool is_flat = shape.off <= k_flat_border * shape.diameter;
             if (way.size() > 2 && shape.diameter <= (is_flat ? options.flat_hole : options.hole) * state.length)
               is_done |= fill_one(state, fans, way, shape, FacetMark::filled, RepairKind::filled);
             way.clear();
@@ -297,53 +298,53 @@ void cap_half(RepairState& state, const RepairOptions& options) {
   const double tolerance = options.half_tolerance * state.length;
   std::optional<HalfPlane> best;
   for (const std::size_t axis : {1u, 2u, 0u}) {  // y first, because it is normal to the usual symmetry plane of aircraft
-    const bool is_asked = options.half == std::string(1, "xyz"[axis]);
-    if (options.half != "automatic" && !is_asked) continue;
+    const bool is_requested = options.half == std::string(1, "xyz"[axis]);
+    if (options.half != "automatic" && !is_requested) continue;
     for (const bool is_low : {true, false}) {
-      const auto plane = find_half(state, loops, axis, is_low, is_asked, tolerance);
+      const auto plane = find_half(state, loops, axis, is_low, is_requested, tolerance);
       if (plane && (!best || plane->share > best->share)) best = plane;
     }
   }
   if (!best) return;
   // Tubes that are open at both ends are no half models.
   if (options.half == "automatic" && find_half(state, loops, best->axis, !best->is_above, false, tolerance)) return;
-  std::vector<char> is_rim(state.points.size(), 0);
-  HalfRim half{std::string(1, "xyz"[best->axis]), best->at, best->is_above, best->off, 0};
+  std::vector<char> is_border(state.points.size(), 0);
+  HalfOpening half{std::string(1, "xyz"[best->axis]), best->at, best->is_above, best->off, 0};
   for (const std::size_t i : best->loops)
     for (const std::uint32_t v : loops[i]) {
-      is_rim[v] = 1;
+      is_border[v] = 1;
       ++half.n_vertices;
     }
   std::vector<std::uint32_t> moved;
   for (std::uint32_t t = 0; t < state.facets.size(); ++t)
     for (const std::uint32_t v : state.facets[t])
-      if (is_rim[v] && state.points[v][best->axis] != best->at && (moved.empty() || moved.back() != t)) moved.push_back(t);
-  for (std::uint32_t v = 0; v < is_rim.size(); ++v)
-    if (is_rim[v]) state.points[v][best->axis] = best->at;
+      if (is_border[v] && state.points[v][best->axis] != best->at && (moved.empty() || moved.back() != t)) moved.push_back(t);
+  for (std::uint32_t v = 0; v < is_border.size(); ++v)
+    if (is_border[v]) state.points[v][best->axis] = best->at;
   for (const std::uint32_t t : moved) state.info[t].is_touched = true;
   state.note(RepairKind::into_plane, moved, best->off);
   // Facets in the plane belong to the opening and are removed.
   std::vector<char> is_kept(state.facets.size(), 1), is_flat(state.facets.size(), 0);
   for (std::uint32_t t = 0; t < state.facets.size(); ++t) {
     const Facet& f = state.facets[t];
-    is_flat[t] = is_rim[f[0]] && is_rim[f[1]] && is_rim[f[2]];
+    is_flat[t] = is_border[f[0]] && is_border[f[1]] && is_border[f[2]];
     is_kept[t] = !is_flat[t];
   }
   state.note_parts(RepairKind::removed_sheet, is_flat, state.edges());
   state.keep(is_kept);
 
-  std::vector<Loop> rims;
+  std::vector<Loop> borders;
   for (Loop& loop : find_loops(state)) {
     const bool is_in_plane = std::all_of(loop.begin(), loop.end(), [&](std::uint32_t v) { return state.points[v][best->axis] == best->at; });
-    if (is_in_plane) rims.push_back(std::move(loop));
+    if (is_in_plane) borders.push_back(std::move(loop));
   }
   Vec3 normal;
   normal[best->axis] = best->is_above ? -1.0 : 1.0;
   const Fans fans = fans_of(state);
-  const HolePatch patch = fill_flat(points_of(state, rims), normal);
-  if (!patch.triangles.empty()) add_patch(state, rims, patch, patch_around(state, fans, rims.front()), FacetMark::cap, RepairKind::filled, 0.0);
+  const HolePatch patch = fill_flat(points_of(state, borders), normal);
+  if (!patch.triangles.empty()) add_patch(state, borders, patch, patch_around(state, fans, borders.front()), FacetMark::cap, RepairKind::filled, 0.0);
   else
-    for (const Loop& loop : rims) fill_one(state, fans, loop, shape_of(state, loop), FacetMark::cap, RepairKind::filled);
+    for (const Loop& loop : borders) fill_one(state, fans, loop, shape_of(state, loop), FacetMark::cap, RepairKind::filled);
   state.report.half = half;
 }
 
@@ -353,7 +354,7 @@ std::size_t fill_holes(RepairState& state, const RepairOptions& options, RepairK
   const Fans fans = fans_of(state);
   const EdgeTable edges = state.edges();
   const Parts parts = connected_parts(state.facets.size(), edges);
-  std::vector<RimShape> shapes;
+  std::vector<HoleShape> shapes;
   for (const Loop& loop : loops) shapes.push_back(shape_of(state, loop));
   std::size_t n_open = 0;
   std::vector<char> is_done(loops.size(), 0);
@@ -369,8 +370,8 @@ std::size_t fill_holes(RepairState& state, const RepairOptions& options, RepairK
     context.progress(static_cast<double>(i) / static_cast<double>(loops.size()));
     if (is_done[i]) continue;
     is_done[i] = 1;
-    const RimShape& shape = shapes[i];
-    const bool is_flat = shape.off <= k_flat_rim * shape.diameter;
+    const HoleShape& shape = shapes[i];
+    const bool is_flat = shape.off <= k_flat_border * shape.diameter;
     const double limit = (is_flat ? options.flat_hole : options.hole) * state.length;
     if (loops[i].size() < 3 || shape.diameter > limit || loops[i].size() > static_cast<std::size_t>(options.hole_edges)) {
       ++n_open;
@@ -394,7 +395,7 @@ std::size_t fill_holes(RepairState& state, const RepairOptions& options, RepairK
         if (is_done[j] || fans[loops[j][0]].empty() || parts.part[fans[loops[j][0]][0]] != its_part) continue;
         if (std::abs(dot(shapes[j].normal, shape.normal)) < 1.0 - 1e-6) continue;
         if (std::abs(dot(shapes[j].center - shape.center, shape.normal)) > k_same_plane * state.length + shape.off ||
-            shapes[j].off > k_flat_rim * shapes[j].diameter)
+            shapes[j].off > k_flat_border * shapes[j].diameter)
           continue;
         if (shapes[j].diameter > options.flat_hole * state.length) continue;
         group.push_back(loops[j]);

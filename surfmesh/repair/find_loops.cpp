@@ -28,24 +28,24 @@ std::vector<std::vector<std::uint32_t>> find_loops(const RepairState& state) {
     at[edges[e].to].push_back(e);
   }
   std::vector<char> is_used(edges.size(), 0);
-  std::vector<std::uint32_t> place(state.points.size(), 0xffffffffu);  // index of each point in the walk
+  std::vector<std::uint32_t> location(state.points.size(), 0xffffffffu);  // index of each point in the walk
   std::vector<std::vector<std::uint32_t>> loops;
   for (std::uint32_t start = 0; start < edges.size(); ++start) {
     if (is_used[start]) continue;
     std::vector<std::uint32_t> walk{edges[start].from};
-    place[edges[start].from] = 0;
+    location[edges[start].from] = 0;
     std::uint32_t e = start;
     while (true) {
       is_used[e] = 1;
       const std::uint32_t from = walk.back();
       const std::uint32_t v = edges[e].from == from ? edges[e].to : edges[e].from;
-      if (place[v] != 0xffffffffu) {
-        std::vector<std::uint32_t> loop(walk.begin() + place[v], walk.end());
-        for (std::size_t i = place[v] + 1; i < walk.size(); ++i) place[walk[i]] = 0xffffffffu;
-        walk.resize(place[v] + 1);
+      if (location[v] != 0xffffffffu) {
+        std::vector<std::uint32_t> loop(walk.begin() + location[v], walk.end());
+        for (std::size_t i = location[v] + 1; i < walk.size(); ++i) location[walk[i]] = 0xffffffffu;
+        walk.resize(location[v] + 1);
         loops.push_back(std::move(loop));
       } else {
-        place[v] = static_cast<std::uint32_t>(walk.size());
+        location[v] = static_cast<std::uint32_t>(walk.size());
         walk.push_back(v);
       }
       // If there is a choice, the walk continues in the direction of the facets, else to the side that bends back most.
@@ -65,7 +65,7 @@ std::vector<std::vector<std::uint32_t>> find_loops(const RepairState& state) {
       if (next == 0xffffffffu) break;
       e = next;
     }
-    for (const std::uint32_t v : walk) place[v] = 0xffffffffu;
+    for (const std::uint32_t v : walk) location[v] = 0xffffffffu;
   }
   // A loop gets the direction of most of its edges.
   for (auto& loop : loops) {

@@ -183,7 +183,7 @@ std::string sources_of(const std::vector<SurfaceSoup>& soups) {
 }
 
 /// Returns one sentence for each kind of change, with the number of locations, the largest and the first of them.
-std::vector<std::string> tell(const RepairReport& report) {
+std::vector<std::string> messages_of(const RepairReport& report) {
   static constexpr std::array<const char*, k_repair_kinds> k_words = {"dropped (no area, copies)",
                                                                       "welded within rounding",
                                                                       "seams zipped",
@@ -219,7 +219,7 @@ std::vector<std::string> tell(const RepairReport& report) {
 }
 
 /// \throws Error(open_surface) if a half model is open elsewhere as well
-void require_rim_in_plane(const TriMesh& mesh, const HalfRim& half, const RunContext& context) {
+void require_border_in_plane(const TriMesh& mesh, const HalfOpening& half, const RunContext& context) {
   const Topology topology(mesh, context);
   const auto axis = static_cast<std::size_t>(half.axis[0] - 'x');
   ErrorInfo info{.code = ErrorCode::open_surface};
@@ -228,14 +228,14 @@ void require_rim_in_plane(const TriMesh& mesh, const HalfRim& half, const RunCon
     if (!topology.is_boundary(h)) continue;
     const Vec3 &a = mesh.points[topology.from(h)], &b = mesh.points[topology.to(h)];
     if (a[axis] == half.at && b[axis] == half.at) continue;
-    info.add_place(0.5 * (a + b), "edge with one facet");
+    info.add_location(0.5 * (a + b), "edge with one facet");
     info.geometry.points.insert(info.geometry.points.end(), {a, b});
     const auto last = static_cast<std::uint32_t>(info.geometry.points.size());
     info.geometry.edges.push_back({last - 2, last - 1});
   }
-  if (info.n_places == 0) return;
-  info.problem =
-      "the half model is open along " + count_of(info.n_places, "edge", "edges") + " outside of its plane " + half.axis + " = " + short_number(half.at) + " m";
+  if (info.n_locations == 0) return;
+  info.problem = "the half model is open along " + count_of(info.n_locations, "edge", "edges") + " outside of its plane " + half.axis + " = " +
+                 short_number(half.at) + " m";
   throw Error(std::move(info));
 }
 
@@ -284,7 +284,7 @@ RepairResult repair_surface(const std::vector<SurfaceSoup>& soups, const StitchO
     proving.fluid = stitching.fluid;
     proving.allow_open = state.report.half.has_value();
     StitchResult proved = stitch_surface({soup_of(state, soups)}, proving, context.part("prove", 0.9, 0.95));
-    if (state.report.half) require_rim_in_plane(proved.mesh, *state.report.half, context);
+    if (state.report.half) require_border_in_plane(proved.mesh, *state.report.half, context);
     result.mesh = std::move(proved.mesh);
     proved.report.warnings.insert(proved.report.warnings.begin(), state.report.stitch.warnings.begin(), state.report.stitch.warnings.end());
     state.report.stitch = std::move(proved.report);
@@ -295,7 +295,7 @@ RepairResult repair_surface(const std::vector<SurfaceSoup>& soups, const StitchO
     info.problem = "after repair, " + info.problem +
                    (is_leaking ? "; the surface is not watertight (the exterior connects to the interior), so no outer hull exists" : "");
     std::string done;
-    for (const std::string& message : tell(state.report)) done += (done.empty() ? "changes made before: " : "; ") + message;
+    for (const std::string& message : messages_of(state.report)) done += (done.empty() ? "changes made before: " : "; ") + message;
     info.hint = "use wrap, which makes a closed surface around any approximate body, or raise the limits of repair (gap, hole, flat_hole, hole_edges). " + done;
     throw Error(std::move(info));
   }
@@ -305,7 +305,7 @@ RepairResult repair_surface(const std::vector<SurfaceSoup>& soups, const StitchO
     state.keep(is_kept);
   }
   measure_changes(state, input.points, input.facets, context);
-  state.report.messages = tell(state.report);
+  state.report.messages = messages_of(state.report);
   clean_patch_names(soups, &state.report.messages);
   state.report.messages.push_back("retained facets moved by at most " + short_number(state.report.moved) + " m, the new surface is at most " +
                                   short_number(state.report.from_result) + " m from the input surface, and the input surface at most " +
@@ -335,7 +335,7 @@ RepairForecast foresee_repair(const std::vector<SurfaceSoup>& soups, const Stitc
     if (!is_reparable(error.code())) throw;
     forecast.is_needed = true;
     forecast.problem = error.info().problem;
-    for (const ErrorPlace& place : error.info().places) forecast.places.push_back(place.position);
+    for (const ErrorLocation& location : error.info().locations) forecast.locations.push_back(location.position);
   }
   Input input;
   RepairState state = first_state(soups, stitching, input, context);
@@ -359,7 +359,7 @@ RepairForecast foresee_repair(const std::vector<SurfaceSoup>& soups, const Stitc
     for (const std::uint32_t v : loop) box.add(state.points[v]);
     if (const double width = norm(box.max - box.min); forecast.n_open > 0 && width > forecast.widest_open) {
       forecast.widest_open = width;
-      forecast.widest_place = box.center();
+      forecast.widest_location = box.center();
     }
   }
   const EdgeTable edges = state.edges();

@@ -67,7 +67,7 @@ struct RepairDrawing {
 };
 
 /// The opening of a half model. Its boundary lies exactly in the plane.
-struct HalfRim {
+struct HalfOpening {
   std::string axis;      ///< "x", "y" or "z"
   double at = 0.0;       ///< m
   bool is_above = true;  ///< the body is on the side of larger coordinates
@@ -78,7 +78,7 @@ struct HalfRim {
 struct RepairReport {
   StitchReport stitch;                ///< report on the result, which is verified by stitch_surface
   std::vector<RepairChange> changes;  ///< in chronological order; empty if the input was valid: then the result is bitwise identical
-  std::optional<HalfRim> half;
+  std::optional<HalfOpening> half;
   double length = 0.0;       ///< m, body length L
   double moved = 0.0;        ///< m; largest distance of samples of retained facets from the input
   double from_result = 0.0;  ///< m; largest distance of samples of the result from the input; mostly at the middle of the largest filled hole
@@ -110,7 +110,7 @@ RepairResult repair_surface(const std::vector<SurfaceSoup>& soups, const StitchO
 struct RepairForecast {
   bool is_needed = false;        ///< false: stitch_surface accepts the surface, and the other members are empty
   std::string problem;           ///< error of stitch_surface, with its counts
-  std::vector<Vec3> places;      ///< m; locations of the first defects
+  std::vector<Vec3> locations;   ///< m; locations of the first defects
   std::int64_t n_facets = 0;     ///< number of facets as read, with non-zero area
   double area = 0.0;             ///< m^2, total area of these facets
   double length = 0.0;           ///< m, body length
@@ -121,10 +121,10 @@ struct RepairForecast {
   std::int64_t n_fillings = 0;   ///< number of facets that fill them
   std::int64_t n_open = 0;       ///< number of openings that repair does not close, because they exceed its limits or are as large as the surface itself
   double widest_open = 0.0;      ///< m; diagonal of the box of the widest such opening
-  Vec3 widest_place;             ///< m; middle of that opening
+  Vec3 widest_location;          ///< m; middle of that opening
   std::int64_t n_crossings = 0;  ///< number of pairs of facets that cross or touch after these steps
   std::int64_t n_crowded = 0;    ///< number of edges with more than two facets after these steps
-  std::optional<HalfRim> half;
+  std::optional<HalfOpening> half;
   bool is_enough = true;  ///< true if nothing stays open and crossings can be cut
 };
 

@@ -199,7 +199,7 @@ void warn_of_tangent(RepairState& state, const EdgeTable& edges, const std::vect
   surface.facets = state.facets;
   const std::vector<std::uint32_t> part = flood_orientation(surface, edges).component;
   struct Contact {
-    Vec3 place;
+    Vec3 location;
     std::array<std::uint32_t, 2> patch{};
   };
   std::map<std::array<std::uint32_t, 2>, Contact> pairs;  // by the numbers of the two parts
@@ -219,7 +219,7 @@ void warn_of_tangent(RepairState& state, const EdgeTable& edges, const std::vect
     std::vector<std::string>& warnings = state.report.stitch.warnings;
     const std::string who = contact.patch[0] == contact.patch[1] ? "repair: two parts of " + name(contact.patch[0])
                                                                  : "repair: " + name(contact.patch[0]) + " and " + name(contact.patch[1]);
-    const std::string text = who + " touch along a line at " + format_point(contact.place);
+    const std::string text = who + " touch along a line at " + format_point(contact.location);
     if (std::ranges::any_of(warnings, [&](const std::string& known) { return known.starts_with(who); })) continue;
     warnings.push_back(text + ", where the gap between them narrows to zero; the contact is closed over a width of at most " +
                        short_number(2.0 * k_apart_share * state.length) + " m. Move one part into the other by a few percent of its size, or away from it." +
@@ -305,10 +305,10 @@ void warn_of_opened(RepairState& state, const EdgeTable& edges, const std::vecto
         if (body[h / 3] < body[g / 3]) pairs.try_emplace({body[h / 3], body[g / 3]}, 0.5 * (state.points[edge.low] + state.points[edge.high]));
   }
   std::size_t n = 0;
-  for (const auto& [pair, place] : pairs) {
+  for (const auto& [pair, location] : pairs) {
     if (++n > k_most_named) break;
     state.report.stitch.warnings.push_back("repair: \"" + name_of_body(state, body, pair[0], names) + "\" and \"" + name_of_body(state, body, pair[1], names) +
-                                           "\" touch along a line at " + format_point(place) + " and are separated by a gap of at most " +
+                                           "\" touch along a line at " + format_point(location) + " and are separated by a gap of at most " +
                                            short_number(2.0 * k_apart_share * state.length) +
                                            " m: each part is a separate body. Let one part extend into the other, or move them apart");
   }

@@ -23,30 +23,30 @@ constexpr double k_feature_share = 0.5;  ///< relative to the shortest boundary 
 constexpr double k_turn_cosine = 0.5;    ///< a facet that turns by more than 60 degrees would be damaged
 constexpr std::uint32_t k_nobody = 0xffffffffu;
 
-struct Rims {
+struct OpenBorders {
   std::vector<std::uint32_t> halfedges;                ///< half-edges on edges with one facet
   std::vector<std::uint32_t> vertices;                 ///< ascending
   std::vector<std::vector<std::uint32_t>> neighbours;  ///< for each vertex of the surface: its neighbours along open boundaries
   std::vector<double> shortest;                        ///< m, shortest boundary edge at each vertex
 };
 
-Rims find_rims(const RepairState& state) {
-  Rims rims;
+OpenBorders find_borders(const RepairState& state) {
+  OpenBorders borders;
   const EdgeTable table = state.edges();
-  rims.neighbours.resize(state.points.size());
-  rims.shortest.assign(state.points.size(), 1e300);
+  borders.neighbours.resize(state.points.size());
+  borders.shortest.assign(state.points.size(), 1e300);
   for (const Edge& edge : table.edges()) {
     if (edge.count != 1) continue;
-    rims.halfedges.push_back(table.at(edge)[0]);
-    rims.vertices.push_back(edge.low);
-    rims.vertices.push_back(edge.high);
-    rims.neighbours[edge.low].push_back(edge.high);
-    rims.neighbours[edge.high].push_back(edge.low);
+    borders.halfedges.push_back(table.at(edge)[0]);
+    borders.vertices.push_back(edge.low);
+    borders.vertices.push_back(edge.high);
+    borders.neighbours[edge.low].push_back(edge.high);
+    borders.neighbours[edge.high].push_back(edge.low);
     const double length = distance(state.points[edge.low], state.points[edge.high]);
-    for (const std::uint32_t v : {edge.low, edge.high}) rims.shortest[v] = std::min(rims.shortest[v], length);
+    for (const std::uint32_t v : {edge.low, edge.high}) borders.shortest[v] = std::min(borders.shortest[v], length);
   }
-  sort_unique(rims.vertices);
-  return rims;
+  sort_unique(borders.vertices);
+  return borders;
 }
 
 Box grown(Box box, double by) {
@@ -58,9 +58,9 @@ Box grown(Box box, double by) {
 /// Splits boundary edges at vertices of other boundaries. In one round each edge is split at most once, and a facet with several boundary edges is split at one
 /// of them. \return number of splits
 std::size_t split_at_vertices(RepairState& state, double tolerance, const RunContext& context) {
-  const Rims rims = find_rims(state);
+  const OpenBorders borders = find_borders(state);
   std::vector<Box> boxes;
-  for (const std::uint32_t h : rims.halfedges) {
+  for (const std::uint32_t h : borders.halfedges) {
     Box box;
     box.add(state.points[state.facets[h / 3][h % 3]]);
     box.add(state.points[state.facets[h / 3][next_halfedge(h) % 3]]);
@@ -70,32 +70,32 @@ std::size_t split_at_vertices(RepairState& state, double tolerance, const RunCon
   struct Split {
     double distance = 0.0;
     std::uint32_t halfedge = 0, vertex = 0;
-    Vec3 foot;
+    Vec3 nearest_point;
   };
   std::map<std::uint32_t, Split> best;  // best split by facet
-  for (const std::uint32_t a : rims.vertices) {
+  for (const std::uint32_t a : borders.vertices) {
     const Vec3& p = state.points[a];
-    Split nearest{.distance = tolerance, .halfedge = k_nobody, .vertex = a, .foot = {}};
+    Split nearest{.distance = tolerance, .halfedge = k_nobody, .vertex = a, .nearest_point = {}};
     bool is_at_vertex = false;
     tree.for_each_overlap({p, p}, [&](std::uint32_t i) {
-      const std::uint32_t h = rims.halfedges[i];
+      const std::uint32_t h = borders.halfedges[i];
       const std::uint32_t u = state.facets[h / 3][h % 3], v = state.facets[h / 3][next_halfedge(h) % 3];
       if (u == a || v == a) return true;
       const Vec3 &pu = state.points[u], &pv = state.points[v];
-      const Vec3 foot = nearest_on_segment(p, pu, pv);
-      const double d = distance(p, foot);
+      const Vec3 nearest_point = nearest_on_segment(p, pu, pv);
+      const double d = distance(p, nearest_point);
       if (d > nearest.distance) return true;
-      const double from_end = std::min(distance(foot, pu), distance(foot, pv));
+      const double from_end = std::min(distance(nearest_point, pu), distance(nearest_point, pv));
       if (from_end <= std::max(2.0 * d, k_first_share * state.length)) {
         is_at_vertex = true;
         return true;
       }
       bool goes_along = false;
-      for (const std::uint32_t w : rims.neighbours[a])
+      for (const std::uint32_t w : borders.neighbours[a])
         goes_along |= w == u || w == v || distance(state.points[w], nearest_on_segment(state.points[w], pu, pv)) <= tolerance ||
                       distance(pu, nearest_on_segment(pu, p, state.points[w])) <= tolerance ||
                       distance(pv, nearest_on_segment(pv, p, state.points[w])) <= tolerance;
-      if (goes_along && (d < nearest.distance || nearest.halfedge == k_nobody)) nearest = {d, h, a, foot};
+      if (goes_along && (d < nearest.distance || nearest.halfedge == k_nobody)) nearest = {d, h, a, nearest_point};
       return true;
     });
     if (nearest.halfedge == k_nobody || is_at_vertex) continue;
@@ -107,7 +107,7 @@ std::size_t split_at_vertices(RepairState& state, double tolerance, const RunCon
     const Facet old = state.facets[facet];
     const std::uint32_t u = old[h % 3], v = old[next_halfedge(h) % 3], w = old[previous_halfedge(h) % 3];
     const auto m = static_cast<std::uint32_t>(state.points.size());
-    state.points.push_back(split.foot);
+    state.points.push_back(split.nearest_point);
     state.facets[facet] = {u, m, w};
     state.add({m, v, w}, state.info[facet]);
   }
@@ -119,23 +119,23 @@ struct Pair {
   std::uint32_t a = 0, b = 0;  ///< a < b
 };
 
-std::vector<Pair> near_pairs(const RepairState& state, const Rims& rims, double tolerance, const RunContext& context) {
+std::vector<Pair> near_pairs(const RepairState& state, const OpenBorders& borders, double tolerance, const RunContext& context) {
   std::vector<Box> boxes;
-  for (const std::uint32_t v : rims.vertices) boxes.push_back(grown({state.points[v], state.points[v]}, 0.51 * tolerance));
+  for (const std::uint32_t v : borders.vertices) boxes.push_back(grown({state.points[v], state.points[v]}, 0.51 * tolerance));
   std::vector<std::vector<std::uint32_t>> near(state.points.size());
   std::vector<Pair> pairs;
   for (const auto& [i, j] : BoxTree(boxes, context).overlapping_pairs(context)) {
-    const std::uint32_t a = rims.vertices[i], b = rims.vertices[j];
+    const std::uint32_t a = borders.vertices[i], b = borders.vertices[j];
     const double d = distance(state.points[a], state.points[b]);
-    if (d > tolerance || d > k_feature_share * std::min(rims.shortest[a], rims.shortest[b])) continue;
+    if (d > tolerance || d > k_feature_share * std::min(borders.shortest[a], borders.shortest[b])) continue;
     near[a].push_back(b);
     near[b].push_back(a);
     pairs.push_back({d, a, b});
   }
   const auto is_near = [&](std::uint32_t a, std::uint32_t b) { return a == b || std::find(near[a].begin(), near[a].end(), b) != near[a].end(); };
   std::erase_if(pairs, [&](const Pair& pair) {
-    for (const std::uint32_t x : rims.neighbours[pair.a])
-      for (const std::uint32_t y : rims.neighbours[pair.b])
+    for (const std::uint32_t x : borders.neighbours[pair.a])
+      for (const std::uint32_t y : borders.neighbours[pair.b])
         if (is_near(x, y)) return false;
     return true;
   });
@@ -216,13 +216,13 @@ std::vector<Pair> join_pairs(RepairState& state, std::vector<Pair> pairs) {
 }
 
 /// Records one change for each run of pairs along an open boundary.
-void note_seams(RepairState& state, const std::vector<Pair>& pairs, const Rims& rims) {
-  std::vector<std::uint32_t> pair_of(rims.neighbours.size(), k_nobody);
+void note_seams(RepairState& state, const std::vector<Pair>& pairs, const OpenBorders& borders) {
+  std::vector<std::uint32_t> pair_of(borders.neighbours.size(), k_nobody);
   for (std::uint32_t i = 0; i < pairs.size(); ++i) pair_of[pairs[i].a] = pair_of[pairs[i].b] = i;
   DisjointSets seams(pairs.size());
   for (std::uint32_t i = 0; i < pairs.size(); ++i)
     for (const std::uint32_t v : {pairs[i].a, pairs[i].b})
-      for (const std::uint32_t w : rims.neighbours[v])
+      for (const std::uint32_t w : borders.neighbours[v])
         if (pair_of[w] != k_nobody) seams.join(i, pair_of[w]);
   std::vector<std::vector<std::uint32_t>> facets_of(pairs.size());
   std::vector<double> widest(pairs.size(), 0.0);
@@ -243,17 +243,17 @@ void zip_seams(RepairState& state, const RepairOptions& options, const RunContex
   for (double tolerance = std::min(last, k_first_share * state.length); tolerance > 0.0; tolerance = std::min(last, k_growth * tolerance)) {
     context.check_stop();
     for (int round = 0; round < k_tries; ++round) {
-      const Rims before = find_rims(state);
+      const OpenBorders before = find_borders(state);
       if (before.halfedges.empty()) return;
       const RepairState unsplit = state;
       const std::size_t n_split = split_at_vertices(state, tolerance, context);
-      const Rims rims = n_split > 0 ? find_rims(state) : before;
-      const std::vector<Pair> joined = join_pairs(state, near_pairs(state, rims, tolerance, context));
+      const OpenBorders borders = n_split > 0 ? find_borders(state) : before;
+      const std::vector<Pair> joined = join_pairs(state, near_pairs(state, borders, tolerance, context));
       if (joined.empty()) {
         state = unsplit;
         break;
       }
-      note_seams(state, joined, rims);
+      note_seams(state, joined, borders);
     }
     if (tolerance >= last) break;
   }

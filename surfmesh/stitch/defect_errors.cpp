@@ -140,7 +140,7 @@ void add_pinched(const WorkingSurface& surface, const Defects& defects, ErrorInf
   std::vector<char> is_pinched(surface.points.size(), 0);
   for (const std::uint32_t v : defects.pinched) {
     is_pinched[v] = 1;
-    if (info.places.size() < k_max_places) info.places.push_back({surface.metres(surface.points[v]), "vertex where several fans of facets meet"});
+    if (info.locations.size() < k_max_locations) info.locations.push_back({surface.metres(surface.points[v]), "vertex where several fans of facets meet"});
     if (info.geometry.vertices.size() < k_max_geometry) info.geometry.vertices.push_back(add_point(surface, surface.points[v], info.geometry));
   }
   for (std::uint32_t t = 0; t < surface.n_facets(); ++t)
@@ -153,12 +153,12 @@ void add_pinched(const WorkingSurface& surface, const Defects& defects, ErrorInf
   if (!defects.pinched.empty())
     info.problem += " and " + count_of(static_cast<std::int64_t>(defects.pinched.size()), "vertex joins", "vertices join") + " several fans of facets";
   info.problem += in_addition(other_defects(defects, orientation, true, false, true));
-  info.n_places = static_cast<std::int64_t>(defects.crowded.size() + defects.pinched.size());
+  info.n_locations = static_cast<std::int64_t>(defects.crowded.size() + defects.pinched.size());
   for (const Edge& edge : defects.crowded) {
-    if (info.places.size() < k_max_places) {
+    if (info.locations.size() < k_max_locations) {
       std::string what = "edge of " + std::to_string(edge.count) + " facets, among them";
       for (std::size_t i = 0; i < std::min<std::size_t>(edge.count, 3); ++i) what += (i ? ", " : " ") + facet_name(surface, edges.at(edge)[i] / 3);
-      info.places.push_back({middle(surface, edge), std::move(what)});
+      info.locations.push_back({middle(surface, edge), std::move(what)});
     }
     add_edge(surface, edge, info.geometry);
     for (const std::uint32_t h : edges.at(edge)) add_facet(surface, h / 3, info.geometry);
@@ -176,10 +176,10 @@ void add_pinched(const WorkingSurface& surface, const Defects& defects, ErrorInf
   info.problem = "the surface is open along " + count_of(n, "edge", "edges") + " around " +
                  count_of(count_holes(defects.boundary, surface.points.size()), "hole", "holes") +
                  in_addition(other_defects(defects, orientation, false, true, true));
-  info.n_places = n;
+  info.n_locations = n;
   for (const Edge& edge : defects.boundary) {
-    if (info.places.size() < k_max_places)
-      info.places.push_back(
+    if (info.locations.size() < k_max_locations)
+      info.locations.push_back(
           {middle(surface, edge), "edge with one facet, " + short_number(length(surface, edge)) + " m long, " + facet_name(surface, edges.at(edge)[0] / 3)});
     add_edge(surface, edge, info.geometry);
   }
@@ -201,7 +201,7 @@ void add_pinched(const WorkingSurface& surface, const Defects& defects, ErrorInf
   ErrorInfo info = start_error(ErrorCode::non_manifold_surface, surface);
   info.problem = count_of(static_cast<std::int64_t>(defects.pinched.size()), "vertex joins", "vertices join") + " several fans of facets" +
                  in_addition(other_defects(defects, orientation, false, false, true));
-  info.n_places = static_cast<std::int64_t>(defects.pinched.size());
+  info.n_locations = static_cast<std::int64_t>(defects.pinched.size());
   add_pinched(surface, defects, info);
   info.hint = k_repair_hint + ". Or move the parts of the surface that touch at a point apart";
   throw Error(std::move(info));
@@ -211,10 +211,11 @@ void add_pinched(const WorkingSurface& surface, const Defects& defects, ErrorInf
   ErrorInfo info = start_error(ErrorCode::not_orientable, surface);
   const auto n = static_cast<std::int64_t>(orientation.conflicts.size());
   info.problem = count_of(n, "component is", "components are") + " one-sided like a Moebius strip: no orientation of the facets is consistent";
-  info.n_places = n;
+  info.n_locations = n;
   for (const Edge& edge : orientation.conflicts) {
     const std::uint32_t facet = edges.at(edge)[0] / 3;
-    if (info.places.size() < k_max_places) info.places.push_back({middle(surface, edge), "edge between opposite orientations, " + facet_name(surface, facet)});
+    if (info.locations.size() < k_max_locations)
+      info.locations.push_back({middle(surface, edge), "edge between opposite orientations, " + facet_name(surface, facet)});
     add_edge(surface, edge, info.geometry);
     for (const std::uint32_t h : edges.at(edge)) add_facet(surface, h / 3, info.geometry);
   }
@@ -248,18 +249,18 @@ void throw_self_intersection(const WorkingSurface& surface, const CrossingPairs&
     problems.push_back(count_of(static_cast<std::int64_t>(flat.size()), "facet has", "facets have") +
                        " no area and cannot be removed without changing the surface");
   info.problem = problems.front() + (problems.size() > 1 ? "; " + problems.back() : "");
-  info.n_places = crossings.total + static_cast<std::int64_t>(flat.size());
+  info.n_locations = crossings.total + static_cast<std::int64_t>(flat.size());
   const auto area = [&](std::uint32_t t) {
     const auto c = surface.corners(t);
     return norm2(cross(c[1] - c[0], c[2] - c[0]));
   };
-  std::vector<char> is_shown(surface.n_facets(), 0), is_place(surface.n_facets(), 0);
+  std::vector<char> is_shown(surface.n_facets(), 0), is_location(surface.n_facets(), 0);
   for (const auto& [a, b] : crossings.pairs) {
     // The smaller facet indicates the location better. Each facet is listed once, so that one large facet does not fill the list.
     const std::uint32_t smaller = area(a) <= area(b) ? a : b;
-    if (info.places.size() < k_max_places && !is_place[smaller] && !is_place[a]) {
-      info.places.push_back({center(surface, smaller), facet_name(surface, a) + " and " + facet_name(surface, b)});
-      is_place[smaller] = is_place[a] = 1;
+    if (info.locations.size() < k_max_locations && !is_location[smaller] && !is_location[a]) {
+      info.locations.push_back({center(surface, smaller), facet_name(surface, a) + " and " + facet_name(surface, b)});
+      is_location[smaller] = is_location[a] = 1;
     }
     for (const std::uint32_t t : {a, b}) {
       if (!is_shown[t]) add_facet(surface, t, info.geometry);
@@ -267,7 +268,7 @@ void throw_self_intersection(const WorkingSurface& surface, const CrossingPairs&
     }
   }
   for (const std::uint32_t t : flat) {
-    if (info.places.size() < k_max_places) info.places.push_back({center(surface, t), facet_name(surface, t) + " has no area"});
+    if (info.locations.size() < k_max_locations) info.locations.push_back({center(surface, t), facet_name(surface, t) + " has no area"});
     if (!is_shown[t]) add_facet(surface, t, info.geometry);
   }
   info.hint = n_between > 0 ? "unite the bodies with `sterna union` (union{...} in a script), or move them apart; " + k_repair_hint

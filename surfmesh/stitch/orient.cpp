@@ -137,12 +137,12 @@ Orientation flood_orientation(const WorkingSurface& surface, const EdgeTable& ed
         if (edge.count != 2) continue;
         const std::uint32_t g = edges.at(edge)[0] == h ? edges.at(edge)[1] : edges.at(edge)[0];
         const bool same_sense = surface.facets[h / 3][h % 3] == surface.facets[g / 3][g % 3];
-        const char wanted = static_cast<char>(result.is_flipped[t] != same_sense);
+        const char required = static_cast<char>(result.is_flipped[t] != same_sense);
         if (result.component[g / 3] == k_none) {
           result.component[g / 3] = result.n_components;
-          result.is_flipped[g / 3] = wanted;
+          result.is_flipped[g / 3] = required;
           stack.push_back(g / 3);
-        } else if (result.is_flipped[g / 3] != wanted && !has_conflict) {
+        } else if (result.is_flipped[g / 3] != required && !has_conflict) {
           has_conflict = true;
           result.conflicts.push_back(edge);
         }

@@ -39,7 +39,7 @@ constexpr double k_short_edge = 0.5, k_long_edge = 1.7;
 /// degrees) get a separate step.
 constexpr double k_collapse_angle = 0.3, k_smooth_angle = 0.26, k_poor = 0.35;
 /// Rad, 6 degrees: below this angle, the removal of a sliver triangle takes precedence over the quality of adjacent triangles.
-constexpr double k_needle = 0.105;
+constexpr double k_sliver = 0.105;
 constexpr double k_gain = 1e-3;
 /// Relative to the edge length of the wrap: a vertex nearer than this to a vertex on a line is merged into it.
 constexpr double k_merged_edge = 0.25;
@@ -205,7 +205,7 @@ class WrapFitter {
 
   /// Result of a planned split. Splits are computed in parallel and executed in order.
   struct NewPoint {
-    bool is_wanted = false;
+    bool is_needed = false;
     bool is_on_line = false;
     Vec3 at;
   };
@@ -217,7 +217,7 @@ class WrapFitter {
         context_, edges.size(), [&](std::size_t e) { points[e] = choose(edges[e]); }, 512);
     std::vector<std::pair<double, std::size_t>> order;  // edges, longest first
     for (std::size_t e = 0; e < edges.size(); ++e)
-      if (points[e].is_wanted) order.push_back({-distance(now_.points[edges[e][0]], now_.points[edges[e][1]]), e});
+      if (points[e].is_needed) order.push_back({-distance(now_.points[edges[e][0]], now_.points[edges[e][1]]), e});
     if (order.empty()) return 0;
     std::sort(order.begin(), order.end());
     // All edges are first split in the middle. Then all new vertices move at once, so that no triangle has to turn while only some of its vertices are in
@@ -348,7 +348,8 @@ class WrapFitter {
     const Vec3 &a = mesh.points[from], &b = mesh.points[to];
     if (!surface_.nearest_line(0.5 * (a + b), 0.05 * distance(a, b)).triangle.is_valid()) return false;
     return mesh.collapse(
-        from, to, {.least_angle = 0.0, .longest = k_long_edge * sizes_.edge, .tolerance = sizes_.tolerance, .merge = 0.05 * sizes_.edge, .is_one_place = true});
+        from, to,
+        {.least_angle = 0.0, .longest = k_long_edge * sizes_.edge, .tolerance = sizes_.tolerance, .merge = 0.05 * sizes_.edge, .is_one_location = true});
   }
 
   bool try_flip(StripMesh& mesh, std::uint32_t a, std::uint32_t b) const { return !mesh.is_kept_edge(a, b) && mesh.flip(a, b, k_gain, sizes_.tolerance); }
@@ -418,7 +419,7 @@ class WrapFitter {
   }
 
   /// Flips the longest edge of a nearly flat triangle. Such a triangle has no normal of its own, so the normal of its neighbour is used.
-  bool try_flip_needle(StripMesh& mesh, std::uint32_t t, std::uint32_t a, std::uint32_t b) const {
+  bool try_flip_sliver(StripMesh& mesh, std::uint32_t t, std::uint32_t a, std::uint32_t b) const {
     const auto left = mesh.triangle_at(a, b), right = mesh.triangle_at(b, a);
     if (!left || !right) return false;
     const std::uint32_t other = *left == t ? *right : *left;
@@ -446,11 +447,11 @@ class WrapFitter {
         for (std::size_t k = 0; k < 3; ++k) edges[k] = {distance(mesh.points[v[k]], mesh.points[v[(k + 1) % 3]]), {v[k], v[(k + 1) % 3]}};
         std::sort(edges.begin(), edges.end());
         bool is_done = try_flip(mesh, edges[2].second[0], edges[2].second[1]) || try_flip(mesh, edges[1].second[0], edges[1].second[1]);
-        if (!is_done && angle < k_needle) is_done = try_flip_needle(mesh, t, edges[2].second[0], edges[2].second[1]);
+        if (!is_done && angle < k_sliver) is_done = try_flip_sliver(mesh, t, edges[2].second[0], edges[2].second[1]);
         for (std::size_t k = 0; k < 3 && !is_done; ++k) {
           const auto [a, b] = edges[k].second;
           is_done = try_collapse(mesh, a, b, angle + k_gain) || try_collapse(mesh, b, a, angle + k_gain);
-          if (angle < k_needle) is_done = is_done || try_along_line(mesh, a, b) || try_along_line(mesh, b, a);
+          if (angle < k_sliver) is_done = is_done || try_along_line(mesh, a, b) || try_along_line(mesh, b, a);
         }
         has_changed |= is_done;
       }

@@ -17,9 +17,9 @@ namespace sterna::surfmesh {
 namespace {
 
 /// Relative to the body length: largest distance of an open boundary from its plane.
-constexpr double k_rim_off_plane = 1e-3;
+constexpr double k_border_off_plane = 1e-3;
 /// Fraction of the borders' length that must lie in the plane. A torn half model has many borders elsewhere.
-constexpr double k_rim_share = 0.2;
+constexpr double k_border_share = 0.2;
 /// Largest fraction of the boundary's box that facets in the plane may cover. If they cover more, the plane is a side of the body, and the boundary is a hole
 /// in it.
 constexpr double k_closed_share = 0.05;
@@ -49,21 +49,21 @@ void make_one_sense(WorkingSurface& surface, WrapInput& input) {
 }
 
 /// The longest open boundary within one plane at the end of the box.
-struct Rim {
+struct PlanarBorder {
   int axis = -1;
   double at = 0.0;
   double length = 0.0;
   bool is_low = true;
 };
 
-Rim find_rim(const WrapInput& input, double gap) {
+PlanarBorder find_border(const WrapInput& input, double gap) {
   const Box box = bounding_box(input.mesh);
-  const double near = k_rim_off_plane * input.length;
+  const double near = k_border_off_plane * input.length;
   double all = 0.0;
   for (const TriangleId t : input.mesh.triangles.ids())
     for (std::size_t k = 0; k < 3; ++k)
       if (input.is_border[t.index()][k]) all += border_length(input.mesh, t, k);
-  Rim best;
+  PlanarBorder best;
   for (std::size_t axis = 0; axis < 3; ++axis) {
     for (const bool is_low : {true, false}) {
       const double end = is_low ? box.min[axis] : box.max[axis];
@@ -84,7 +84,7 @@ Rim find_rim(const WrapInput& input, double gap) {
         if (std::abs(c[0][axis] - end) <= near && std::abs(c[1][axis] - end) <= near && std::abs(c[2][axis] - end) <= near)
           facing += triangle_area(c[0], c[1], c[2]);
       }
-      if (length < k_rim_share * all || extent.empty() || extent.longest_side() <= gap || length <= best.length) continue;
+      if (length < k_border_share * all || extent.empty() || extent.longest_side() <= gap || length <= best.length) continue;
       // An open boundary is a closed loop, so it covers its extent in both directions.
       const Vec3 size = extent.max - extent.min;
       const double enclosed = size[(axis + 1) % 3] * size[(axis + 2) % 3];
@@ -186,22 +186,22 @@ WrapInput read_wrap_input(const std::vector<SurfaceSoup>& soups, const WrapOptio
 }
 
 void mirror_half(WrapInput& input, double gap, WrapReport& report, const RunContext& context) {
-  const Rim rim = find_rim(input, gap);
-  if (rim.axis < 0) return;
-  const auto axis = static_cast<std::size_t>(rim.axis);
+  const PlanarBorder border = find_border(input, gap);
+  if (border.axis < 0) return;
+  const auto axis = static_cast<std::size_t>(border.axis);
   TriMesh& mesh = input.mesh;
-  const double near = k_rim_off_plane * input.length;
+  const double near = k_border_off_plane * input.length;
   // Planes at a distance of less than half the tolerance from zero are set to zero.
-  const double at = std::abs(rim.at) < 0.5 * near ? 0.0 : rim.at;
-  std::vector<char> is_rim(mesh.n_vertices(), 0);
+  const double at = std::abs(border.at) < 0.5 * near ? 0.0 : border.at;
+  std::vector<char> is_on_border(mesh.n_vertices(), 0);
   for (const TriangleId t : mesh.triangles.ids())
     for (std::size_t k = 0; k < 3; ++k)
       if (input.is_border[t.index()][k])
-        for (const VertexId v : {mesh.triangles[t][k], mesh.triangles[t][(k + 1) % 3]}) is_rim[v.index()] = 1;
+        for (const VertexId v : {mesh.triangles[t][k], mesh.triangles[t][(k + 1) % 3]}) is_on_border[v.index()] = 1;
   for (const VertexId v : mesh.points.ids()) {
     double& x = mesh.points[v][axis];
-    const bool is_beyond = rim.is_low ? x < at : x > at;
-    if (!(is_beyond || (is_rim[v.index()] && std::abs(x - at) <= near))) continue;
+    const bool is_beyond = border.is_low ? x < at : x > at;
+    if (!(is_beyond || (is_on_border[v.index()] && std::abs(x - at) <= near))) continue;
     input.half_moved = std::max(input.half_moved, std::abs(x - at));
     x = at;
   }
@@ -225,12 +225,13 @@ void mirror_half(WrapInput& input, double gap, WrapReport& report, const RunCont
   input.area *= 2.0;
   input.half_axis = std::string(1, "xyz"[axis]);
   input.half_at = at;
-  input.is_half_above = rim.is_low;
+  input.is_half_above = border.is_low;
   report.half_axis = input.half_axis;
   report.half_at = at;
   report.half_moved = input.half_moved;
-  report.messages.push_back("half model: open in the plane " + input.half_axis + " = " + short_number(at) + " m (open boundary of " + short_number(rim.length) +
-                            " m, off the plane by at most " + short_number(input.half_moved) + " m); mirrored, wrapped, and cut in that plane");
+  report.messages.push_back("half model: open in the plane " + input.half_axis + " = " + short_number(at) + " m (open boundary of " +
+                            short_number(border.length) + " m, off the plane by at most " + short_number(input.half_moved) +
+                            " m); mirrored, wrapped, and cut in that plane");
   context.check_stop();
 }
 

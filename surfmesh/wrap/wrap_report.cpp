@@ -35,7 +35,7 @@ struct InputFinding {
   bool is_inside = false;
 };
 
-std::string places(std::int64_t n) { return n == 1 ? "1 place" : std::to_string(n) + " places"; }
+std::string locations(std::int64_t n) { return n == 1 ? "1 place" : std::to_string(n) + " places"; }
 
 /// Returns the flagged triangles in edge-connected groups, ordered by their first triangles.
 std::vector<std::vector<std::uint32_t>> groups_of(const std::vector<char>& flag, const Topology& topology) {
@@ -184,18 +184,18 @@ void count_vertices(const MeasuredWrap& measured, WrapReport& report) {
 /// Returns the leak that a group of triangles in front of the inside forms. Its position is the middle of the group's border.
 WrapLeak leak_of(const std::vector<std::uint32_t>& group, const MeasuredWrap& measured) {
   WrapLeak leak;
-  Vec3 rim;
-  std::int64_t n_rim = 0;
+  Vec3 border;
+  std::int64_t n_border = 0;
   for (const std::uint32_t t : group) {
     const auto c = corners(measured.mesh, TriangleId(t));
     leak.area += triangle_area(c[0], c[1], c[2]);
     for (std::uint32_t k = 0; k < 3; ++k) {
       if (measured.is_leak[triangle_of(measured.topology.twin(HalfedgeId(3 * t + k))).index()]) continue;
-      rim += 0.5 * (c[k] + c[(k + 1) % 3]);
-      ++n_rim;
+      border += 0.5 * (c[k] + c[(k + 1) % 3]);
+      ++n_border;
     }
   }
-  leak.position = n_rim > 0 ? rim / static_cast<double>(n_rim) : corners(measured.mesh, TriangleId(group.front()))[0];
+  leak.position = n_border > 0 ? border / static_cast<double>(n_border) : corners(measured.mesh, TriangleId(group.front()))[0];
   return leak;
 }
 
@@ -249,7 +249,7 @@ void write_messages(const WrapSizes& sizes, WrapReport& report) {
   const auto number = wrap_number;
   if (report.n_closures > 0) {
     const WrapClosure& largest = report.closures.front();
-    report.messages.push_back("closed " + places(report.n_closures) + ", the largest " + (largest.is_opening ? "an opening" : "a groove") + " of " +
+    report.messages.push_back("closed " + locations(report.n_closures) + ", the largest " + (largest.is_opening ? "an opening" : "a groove") + " of " +
                               number(largest.size) + " m at " + format_point(largest.position));
   }
   if (report.n_inside > 0)
@@ -288,26 +288,26 @@ void prove_wrap(const TriMesh& mesh, const WrapReport& report, const RunContext&
       if (!topology.is_boundary(HalfedgeId(h))) continue;
       const Vec3 &a = mesh.points[topology.from(HalfedgeId(h))], &b = mesh.points[topology.to(HalfedgeId(h))];
       if (!report.half_axis.empty() && a[axis] == report.half_at && b[axis] == report.half_at) continue;
-      info.add_place(0.5 * (a + b), "edge with one triangle");
+      info.add_location(0.5 * (a + b), "edge with one triangle");
     }
-    if (!info.places.empty()) throw Error(std::move(info));
+    if (!info.locations.empty()) throw Error(std::move(info));
   }
   const CrossingPairs crossings = find_crossings(mesh, context, k_max_geometry);
   if (crossings.total == 0) return;
   ErrorInfo info{.code = ErrorCode::self_intersection,
                  .attempted = "wrapping",
-                 .problem = "the wrap crosses itself in " + places(crossings.total),
+                 .problem = "the wrap crosses itself in " + locations(crossings.total),
                  .hint = "a smaller edge, or a larger offset"};
   for (const auto& pair : crossings.pairs) {
     const auto c = corners(mesh, TriangleId(pair[0]));
-    info.add_place((c[0] + c[1] + c[2]) / 3.0, "two triangles cross");
+    info.add_location((c[0] + c[1] + c[2]) / 3.0, "two triangles cross");
     for (const std::uint32_t t : pair) {
       const auto n = static_cast<std::uint32_t>(info.geometry.points.size());
       for (const Vec3& p : corners(mesh, TriangleId(t))) info.geometry.points.push_back(p);
       info.geometry.triangles.push_back({n, n + 1, n + 2});
     }
   }
-  info.n_places = crossings.total;
+  info.n_locations = crossings.total;
   throw Error(std::move(info));
 }
 

@@ -169,7 +169,7 @@ double widest_opening(const WrapInput& input) {
   return widest;
 }
 
-void tell_gap(const std::vector<GapTrial>& trials, std::size_t chosen, double length, WrapReport& report) {
+void report_gap(const std::vector<GapTrial>& trials, std::size_t chosen, double length, WrapReport& report) {
   if (chosen > 0)
     report.messages.push_back("openings are wider than " + short_number(trials[chosen - 1].gap) + " m: the gap is " + short_number(trials[chosen].gap) + " m");
   if (trials[chosen].leaking < k_leaking_share) return;
@@ -184,7 +184,7 @@ Vec3 find_seed(const WrapInput& input, double alpha, const RunContext& context) 
   const Box box = bounding_box(input.mesh);
   const Vec3 size = box.max - box.min;
   std::vector<double> depth(k_seed_cells * k_seed_cells * k_seed_cells, -1.0);
-  const auto place = [&](std::size_t i) {
+  const auto location = [&](std::size_t i) {
     const std::size_t x = i % k_seed_cells, y = i / k_seed_cells % k_seed_cells, z = i / (k_seed_cells * k_seed_cells);
     const auto share = [](std::size_t k) { return (static_cast<double>(k) + 0.5) / static_cast<double>(k_seed_cells); };
     return Vec3{box.min.x + share(x) * size.x, box.min.y + share(y) * size.y, box.min.z + share(z) * size.z};
@@ -192,13 +192,13 @@ Vec3 find_seed(const WrapInput& input, double alpha, const RunContext& context) 
   parallel_for(
       context, depth.size(),
       [&](std::size_t i) {
-        if (std::abs(tree.winding_number(place(i))) > 0.5) depth[i] = tree.nearest(place(i)).distance;
+        if (std::abs(tree.winding_number(location(i))) > 0.5) depth[i] = tree.nearest(location(i)).distance;
       },
       64);
   const auto deepest = std::max_element(depth.begin(), depth.end());
   if (*deepest < 2.0 * alpha)
     throw_bad_argument("wrapping", "fluid = \"inside\", but no cavity of the surface is wider than the gap", {}, "fluid = \"outside\", or a smaller gap");
-  return place(static_cast<std::size_t>(deepest - depth.begin()));
+  return location(static_cast<std::size_t>(deepest - depth.begin()));
 }
 
 double coarse_offset(const WrapSizes& sizes) { return std::min(k_coarse_offset * 0.5 * sizes.gap, sizes.edge); }
@@ -378,7 +378,7 @@ GapTrial choose_trial(std::vector<GapTrial> trials, WrapWork& work) {
   const std::size_t chosen = least_gap(trials);
   work.sizes.gap = trials[chosen].gap;
   if (trials.size() > 1) turn_by(trials[chosen], work);
-  if (gaps_of(work).size() > 1) tell_gap(trials, chosen, work.input.length, work.report);
+  if (gaps_of(work).size() > 1) report_gap(trials, chosen, work.input.length, work.report);
   return std::move(trials[chosen]);
 }
 

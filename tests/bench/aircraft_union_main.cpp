@@ -100,13 +100,13 @@ void print_row(const std::filesystem::path& path, const Settings& settings) {
     std::printf(
         "| %s | %zu | %zu | %s | %zu | %zu | %zu | %.8g | %.8g | %s, %zu mended | %.1e | %.1e | %s | %.2f | %.2f (%.2f) | %.2f | %.2f | %.2f | %.2f |\n",
         file.c_str(), n_components, n_faces, tries_text(united.report.tries).c_str(), united.report.n_bodies, united.model.faces.size(),
-        united.report.doubts.size(), before.total.area, before.total.volume, again.report.is_closed() ? "closed" : "OPEN", again.report.mended.size(),
+        united.report.doubts.size(), before.total.area, before.total.volume, again.report.is_closed() ? "closed" : "OPEN", again.report.repaired.size(),
         relative_change(before.total.area, after.total.area), relative_change(before.total.volume, after.total.volume), same_names ? "kept" : "LOST", load,
         unite, unite_cpu, seconds_of("unite/contacts"), measure, write, read);
     if (settings.is_verbose)
       for (const StageTime& stage : context.times()) std::printf("    %6.2f s %s\n", stage.seconds, stage.stage.c_str());
     if (settings.is_verbose)
-      for (const ErrorPlace& doubt : united.report.doubts) std::printf("    doubt at %s: %s\n", format_point(doubt.position).c_str(), doubt.what.c_str());
+      for (const ErrorLocation& doubt : united.report.doubts) std::printf("    doubt at %s: %s\n", format_point(doubt.position).c_str(), doubt.what.c_str());
   } catch (const Error& error) {
     std::string text = error.what();
     for (std::size_t at = text.find('\n'); at != std::string::npos; at = text.find('\n')) text.replace(at, 1, ";");

@@ -17,9 +17,9 @@ using namespace sterna;
 
 namespace {
 
-std::string mended_text(const CadReport& report) {
+std::string repaired_text(const CadReport& report) {
   std::map<std::string, int> counts;
-  for (const CadMend& mend : report.mended) ++counts[mend.what];
+  for (const CadRepair& repair : report.repaired) ++counts[repair.what];
   std::string text;
   for (const auto& [what, count] : counts) text += (text.empty() ? "" : "; ") + std::to_string(count) + " x " + what;
   return text.empty() ? "-" : text;
@@ -35,7 +35,8 @@ bool closes_with_caps(const std::filesystem::path& path) {
 std::string closed_text(const std::filesystem::path& path, const CadReport& report) {
   if (report.is_closed()) return "closed";
   return std::string(closes_with_caps(path) ? "with caps; without: " : "open: ") + std::to_string(report.openings.size()) + " openings of " +
-         std::to_string(report.free_edges.size()) + " edges" + (report.free_edges.empty() ? "" : ", first at " + format_point(report.free_edges.front().place));
+         std::to_string(report.free_edges.size()) + " edges" +
+         (report.free_edges.empty() ? "" : ", first at " + format_point(report.free_edges.front().location));
 }
 
 /// Peak resident memory of the whole process. Call the program with one file to measure that file alone.
@@ -63,7 +64,7 @@ void print_row(const std::filesystem::path& path) {
     const ModelMeasures data = model_measures(file.model, RunContext());
     const CadReport& r = file.report;
     std::printf("| %s | %zu | %zu | %s | %zu / %zu | %s | %s | %zu | %.6g | %.6g | %.0e | %.2f | %.0f |\n", path.filename().c_str(), r.n_faces, r.n_closed,
-                r.file_unit.c_str(), r.n_named_parts, r.n_named_faces, mended_text(r).c_str(), closed_text(path, r).c_str(), r.faults.size(), data.total.area,
+                r.file_unit.c_str(), r.n_named_parts, r.n_named_faces, repaired_text(r).c_str(), closed_text(path, r).c_str(), r.faults.size(), data.total.area,
                 data.total.volume, step_change(file, data), seconds, megabytes);
     if (std::getenv("CAD_TABLE_VERBOSE")) std::printf("%s\n", to_text(r).c_str());
   } catch (const Error& error) {

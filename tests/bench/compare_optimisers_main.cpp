@@ -228,10 +228,10 @@ Settings parse(int argc, char** argv) {
     } else if (argument.starts_with("--")) throw std::invalid_argument("unknown option " + argument);
     else settings.surfaces.push_back(argument);
   }
-  for (const std::string& wanted : settings.solvers) {
+  for (const std::string& expected : settings.solvers) {
     const std::vector<Solver> known = solvers();
-    if (std::none_of(known.begin(), known.end(), [&](const Solver& s) { return s.name == wanted; }))
-      throw std::invalid_argument("there is no solver " + wanted);
+    if (std::none_of(known.begin(), known.end(), [&](const Solver& s) { return s.name == expected; }))
+      throw std::invalid_argument("there is no solver " + expected);
   }
   if (settings.surfaces.empty())
     throw std::invalid_argument("usage: compare_optimisers [--evaluations=N] [--solvers=mma,ccsaq,...] [--threads=N] [--history] surface...");

@@ -137,7 +137,7 @@ void run(const std::string& path, const TriMesh& wall, int threads, const Settin
   const auto& c = extrusion.curving_shares;
   std::printf("%s: %lld crossing pairs; %lld of %lld cells proved, worst quality %.3g at (%.6g, %.6g, %.6g), layer %d\n", row.surface.c_str(),
               static_cast<long long>(crossings.total), static_cast<long long>(certificate.n_proved), static_cast<long long>(certificate.n_cells),
-              certificate.min_quality, certificate.worst_place.x, certificate.worst_place.y, certificate.worst_place.z, certificate.worst_layer);
+              certificate.min_quality, certificate.worst_location.x, certificate.worst_location.y, certificate.worst_location.z, certificate.worst_layer);
   std::printf("  c_t reduced on %lld of %zu lines: %lld straight, %lld up to 1/4, %lld to 1/2, %lld to 3/4, %lld below 1\n",
               static_cast<long long>(extrusion.n_straightened), extrusion.layers.n_lines(), static_cast<long long>(c[0]), static_cast<long long>(c[1]),
               static_cast<long long>(c[2]), static_cast<long long>(c[3]), static_cast<long long>(c[4]));

@@ -61,7 +61,7 @@ void measure(const test::FaceShape& shape, double factor, const char* vtk) {
       q.angle_quantile_1, 100.0 * q.share_of_six, r.min_angle * deg, r.max_angle * deg, static_cast<long long>(r.n_outside_20_130),
       100.0 * static_cast<double>(r.n_outside_20_130) / n, static_cast<long long>(r.n_folded), static_cast<long long>(r.n_unfolding),
       static_cast<long long>(r.n_first_pass), static_cast<long long>(r.n_second_pass), static_cast<long long>(r.n_refused), static_cast<long long>(r.n_flips),
-      static_cast<long long>(r.n_moves), static_cast<long long>(r.n_collapses), format_point(r.worst_place).c_str());
+      static_cast<long long>(r.n_moves), static_cast<long long>(r.n_collapses), format_point(r.worst_location).c_str());
   if (vtk != nullptr) write_vtk(vtk, mesh);
 }
 

@@ -35,13 +35,13 @@ Seconds timed(const std::function<void()>& f) {
 
 /// Area shares of the finished envelope, counted as in the report of a mesh.
 void print_envelope(const TriMesh& wall, const MeshCase& options, const InspectReport& report, const std::string& name, const RunContext& context) {
-  MeshingSite site(wall, options, context);
+  LayerDomain layer_domain(wall, options, context);
   EnvelopeStage stage;
-  const Seconds seconds = timed([&] { stage = make_envelope(site, {}, context); });
-  const EnvelopeScale scale = scale_of(site.base, site.options.envelope);
+  const Seconds seconds = timed([&] { stage = make_envelope(layer_domain, {}, context); });
+  const EnvelopeScale scale = scale_of(layer_domain.base, layer_domain.options.envelope);
   double all = 0.0, full = 0.0, compressed = 0.0, collapsed = 0.0;
-  for (const VertexId v : site.base.wall.points.ids()) {
-    const double a = site.base.vertex_area[v], h = stage.envelope.height[v];
+  for (const VertexId v : layer_domain.base.wall.points.ids()) {
+    const double a = layer_domain.base.vertex_area[v], h = stage.envelope.height[v];
     all += a;
     if (h >= 0.9 * stage.envelope.target[v]) full += a;
     if (h == 0.0) collapsed += a;

@@ -42,7 +42,7 @@ int main(int argc, char** argv) {
         const surfmesh::RemeshReport& r = result.report;
         std::printf("| %s | %zu | %zu | %.2f | %.1f | %.4f | %lld | %.2e | %.2e | %lld | %.2f | %.0f |\n", path.filename().c_str(), wall.n_triangles(),
                     result.mesh.n_triangles(), r.min_angle * k_degrees, r.angle_quantile_1 * k_degrees, r.mean_radius_ratio,
-                    static_cast<long long>(r.n_needles), r.to_input.max / r.length, r.from_input.max / r.length, static_cast<long long>(r.n_kept), seconds,
+                    static_cast<long long>(r.n_slivers), r.to_input.max / r.length, r.from_input.max / r.length, static_cast<long long>(r.n_kept), seconds,
                     static_cast<double>(result.mesh.n_triangles()) / seconds);
         std::fprintf(stderr, "%s\n%s\n", path.filename().c_str(), to_text(r).c_str());
         for (const StageTime& time : context.times()) std::fprintf(stderr, "  %s %.2f s\n", time.stage.c_str(), time.seconds);

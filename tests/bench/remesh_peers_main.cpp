@@ -92,15 +92,15 @@ void print(const std::string& file, const char* who, const TriMesh& wall, const 
   surfmesh::RemeshReport r;
   surfmesh::measure_angles(mesh, r);
   const auto out = surfmesh::surface_distance(mesh, wall, true, k_one), back = surfmesh::surface_distance(wall, mesh, false, k_one);
-  std::int64_t n_needles = 0;
+  std::int64_t n_slivers = 0;
   std::vector<std::array<std::uint32_t, 3>> list;
   for (const TriangleId t : mesh.triangles.ids()) {
     const auto [a, b, c] = corners(mesh, t);
-    if (std::min({corner_angle(a, b, c), corner_angle(b, c, a), corner_angle(c, a, b)}) < surfmesh::k_needle_angle) ++n_needles;
+    if (std::min({corner_angle(a, b, c), corner_angle(b, c, a), corner_angle(c, a, b)}) < surfmesh::k_sliver_angle) ++n_slivers;
     list.push_back({mesh.triangles[t][0].value(), mesh.triangles[t][1].value(), mesh.triangles[t][2].value()});
   }
   std::printf("| %s | %s | %zu | %.2f | %.1f | %.4f | %lld | %.1e | %.1e | %lld | %.2f | %.0f |\n", file.c_str(), who, mesh.n_triangles(),
-              r.min_angle * k_degrees, r.angle_quantile_1 * k_degrees, r.mean_radius_ratio, static_cast<long long>(n_needles), out.max / r.length,
+              r.min_angle * k_degrees, r.angle_quantile_1 * k_degrees, r.mean_radius_ratio, static_cast<long long>(n_slivers), out.max / r.length,
               back.max / r.length, static_cast<long long>(find_crossings(mesh.points.raw(), list, k_one).total), seconds,
               static_cast<double>(mesh.n_triangles()) / seconds);
   std::fflush(stdout);

@@ -20,16 +20,16 @@ using namespace sterna;
 using namespace sterna::volmesh;
 using Clock = std::chrono::steady_clock;
 
-constexpr int k_places_per_vertex = 20;
+constexpr int k_locations_per_vertex = 20;
 
 double seconds_since(Clock::time_point start) { return std::chrono::duration<double>(Clock::now() - start).count(); }
 
-double rate(const SizeField& field, const std::vector<Vec3>& places) {
+double rate(const SizeField& field, const std::vector<Vec3>& locations) {
   const Clock::time_point start = Clock::now();
   double sum = 0.0;
-  for (const Vec3& p : places) sum += field(p);
+  for (const Vec3& p : locations) sum += field(p);
   const double seconds = seconds_since(start);
-  return sum > 0.0 ? static_cast<double>(places.size()) / seconds : 0.0;
+  return sum > 0.0 ? static_cast<double>(locations.size()) / seconds : 0.0;
 }
 
 void measure(const char* path) {
@@ -50,21 +50,21 @@ void measure(const char* path) {
   std::mt19937_64 random(1);
   std::normal_distribution<double> normal;
   std::uniform_real_distribution<double> exponent(-1.0, 3.0);
-  std::vector<Vec3> places;
+  std::vector<Vec3> locations;
   for (const Point& p : wall.points) {
     const double edge = field(p);
-    for (int k = 0; k < k_places_per_vertex; ++k)
-      places.push_back(p + std::pow(10.0, exponent(random)) * edge * normalized(Vec3{normal(random), normal(random), normal(random)}));
+    for (int k = 0; k < k_locations_per_vertex; ++k)
+      locations.push_back(p + std::pow(10.0, exponent(random)) * edge * normalized(Vec3{normal(random), normal(random), normal(random)}));
   }
   // Engines traverse space along a curve; here only the distances within each vertex are sorted.
-  for (std::size_t first = 0; first < places.size(); first += k_places_per_vertex)
-    std::sort(places.begin() + static_cast<std::ptrdiff_t>(first), places.begin() + static_cast<std::ptrdiff_t>(first + k_places_per_vertex),
+  for (std::size_t first = 0; first < locations.size(); first += k_locations_per_vertex)
+    std::sort(locations.begin() + static_cast<std::ptrdiff_t>(first), locations.begin() + static_cast<std::ptrdiff_t>(first + k_locations_per_vertex),
               [&](const Vec3& a, const Vec3& b) { return field(a) < field(b); });
-  const double in_order = rate(field, places);
-  std::shuffle(places.begin(), places.end(), random);
+  const double in_order = rate(field, locations);
+  std::shuffle(locations.begin(), locations.end(), random);
   std::printf("| %s | %zu | %.2f | %llu | %.1f | %.2f | %.2f |\n", path, wall.n_triangles(), building,
               static_cast<unsigned long long>(field.view().header().n_leaves), static_cast<double>(field.bytes().size()) / 1e6, in_order / 1e6,
-              rate(field, places) / 1e6);
+              rate(field, locations) / 1e6);
 }
 
 }  // namespace

@@ -28,7 +28,7 @@ namespace {
 using namespace sterna;
 using Clock = std::chrono::steady_clock;
 
-constexpr int k_places = 200000;
+constexpr int k_locations = 200000;
 constexpr int k_rounds = 5;
 constexpr double k_agreement = 1e-12;
 constexpr std::size_t k_truth_step = 20;  ///< every k_truth_step-th location is compared with the 113-bit value
@@ -177,12 +177,12 @@ struct Agreement {
   const char* worst = "";                          ///< name of the value with the largest error by that measure
 };
 
-Agreement agreement(const NurbsSurface& ours, const Geom_BSplineSurface& theirs, const std::vector<Uv>& places) {
+Agreement agreement(const NurbsSurface& ours, const Geom_BSplineSurface& theirs, const std::vector<Uv>& locations) {
   constexpr const char* k_names[6] = {"S", "Su", "Sv", "Suu", "Suv", "Svv"};
   double largest[6] = {}, our_error[6] = {}, their_error[6] = {};
   Agreement result;
-  for (std::size_t i = 0; i < places.size(); i += k_truth_step) {
-    const Uv at = places[i];
+  for (std::size_t i = 0; i < locations.size(); i += k_truth_step) {
+    const Uv at = locations[i];
     const Truth truth = truth_at(ours.form(), at);
     const SurfaceDerivatives d = ours.derivatives(at);
     gp_Pnt q;
@@ -216,7 +216,7 @@ bool compare(const char* name, const NurbsSurface& ours) {
   std::mt19937_64 random(1);
   std::uniform_real_distribution<double> unit(0.0, 1.0);
   std::vector<Uv> at;
-  for (int k = 0; k < k_places; ++k) at.push_back({box.u.from + unit(random) * box.u.length(), box.v.from + unit(random) * box.v.length()});
+  for (int k = 0; k < k_locations; ++k) at.push_back({box.u.from + unit(random) * box.u.length(), box.v.from + unit(random) * box.v.length()});
   const Agreement agree = agreement(ours, *theirs, at);
 
   double sum = 0.0;
@@ -245,19 +245,19 @@ void projections(const SurfacePtr& surface) {
   std::uniform_real_distribution<double> unit(0.0, 1.0);
   std::vector<Point> points;
   std::vector<Uv> seeds;
-  for (int k = 0; k < k_places; ++k) {
+  for (int k = 0; k < k_locations; ++k) {
     const Uv at{0.02 + 0.96 * unit(random), 0.02 + 0.96 * unit(random)};
     const SurfaceDerivatives d = surface->derivatives(at);
     points.push_back(d.point + 0.01 * unit(random) * normalized(cross(d.du, d.dv)));
     seeds.push_back({at.u + 0.01 * (unit(random) - 0.5), at.v + 0.02 * (unit(random) - 0.5)});
   }
-  std::vector<SurfaceFoot> feet(points.size());
+  std::vector<SurfaceProjection> nearest_points(points.size());
   const RunContext one({.threads = 1});
   Clock::time_point start = Clock::now();
-  projector.project(points, seeds, feet, one);
+  projector.project(points, seeds, nearest_points, one);
   const double seeded = static_cast<double>(points.size()) / seconds_since(start);
   start = Clock::now();
-  projector.project(points, {}, feet, one);
+  projector.project(points, {}, nearest_points, one);
   const double global = static_cast<double>(points.size()) / seconds_since(start);
   std::printf("projections on the bicubic wing, one core: %.0f thousand seeded, %.0f thousand nearest a second\n", seeded / 1e3, global / 1e3);
 }
@@ -265,7 +265,7 @@ void projections(const SurfacePtr& surface) {
 }  // namespace
 
 int main() {
-  std::printf("OpenCASCADE %s; best of %d rounds of %d random places; millions of evaluations a second\n", OCC_VERSION_COMPLETE, k_rounds, k_places);
+  std::printf("OpenCASCADE %s; best of %d rounds of %d random places; millions of evaluations a second\n", OCC_VERSION_COMPLETE, k_rounds, k_locations);
   std::printf("%-18s %-26s  %-22s %-20s  %s\n", "", "differences / terms", "/ largest, from truth", "points", "second derivatives");
   std::printf("%-18s %8s %8s %8s  %8s %8s %-4s %6s %6s %6s  %6s %6s %6s %6s %6s\n", "surface", "between", "ours", "OCCT", "ours", "OCCT", "of", "ours", "OCCT",
               "ratio", "ours", "adapt.", "plain", "ratio", "ratio");

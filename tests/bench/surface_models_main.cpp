@@ -189,7 +189,7 @@ void print_row(const std::filesystem::path& path, const Settings& settings) {
       const surfmesh::SurfaceMeshReport& r = mesh.report;
       const auto n = static_cast<double>(mesh.mesh.n_triangles());
       std::string worst = "-";
-      if (r.worst_face.is_valid()) worst = r.faces[r.worst_face.index()].name + " " + format_point(r.faces[r.worst_face.index()].worst_place);
+      if (r.worst_face.is_valid()) worst = r.faces[r.worst_face.index()].name + " " + format_point(r.faces[r.worst_face.index()].worst_location);
       double normal_angle = 0.0;
       for (const auto& face : r.faces) normal_angle = std::max(normal_angle, face.max_normal_angle);
       const test::TriangleQuality q = test::measure_triangles(mesh.mesh.points.raw(), mesh.mesh.triangles.raw());
@@ -204,9 +204,9 @@ void print_row(const std::filesystem::path& path, const Settings& settings) {
           std::printf("    face %u \"%s\" %s: %lld triangles, %lld outside, angles %.2f .. %.1f at %s, normals %.1f at %s\n", faces[i].face.value(),
                       faces[i].name.c_str(), model.faces[faces[i].face].surface->kind().c_str(), static_cast<long long>(faces[i].n_triangles),
                       static_cast<long long>(faces[i].n_outside_20_130), faces[i].min_angle / k_deg, faces[i].max_angle / k_deg,
-                      format_point(faces[i].worst_place).c_str(), faces[i].max_normal_angle / k_deg, format_point(faces[i].normal_place).c_str());
-        for (const auto& a : r.absorbed) std::printf("    absorbed %s %g m at %s\n", a.what.c_str(), a.size, format_point(a.place).c_str());
-        std::printf("    edge distance %g at %s\n", r.max_edge_distance, format_point(r.edge_distance_place).c_str());
+                      format_point(faces[i].worst_location).c_str(), faces[i].max_normal_angle / k_deg, format_point(faces[i].normal_location).c_str());
+        for (const auto& a : r.absorbed) std::printf("    absorbed %s %g m at %s\n", a.what.c_str(), a.size, format_point(a.location).c_str());
+        std::printf("    edge distance %g at %s\n", r.max_edge_distance, format_point(r.edge_distance_location).c_str());
       }
       if (!settings.raw_folder.empty()) write_raw(mesh.mesh, (std::filesystem::path(settings.raw_folder) / path.stem()).string() + ".tri");
       if (!settings.folder.empty()) {

@@ -17,7 +17,7 @@
 
 #include "geom/base/error.h"
 #include "geom/tets/bulk_insert.h"
-#include "tests/support/shapes.h"
+#include "tests/support/test_shapes.h"
 #include "volmesh/domain/farfield.h"
 #include "volmesh/tetra/size_field.h"
 #include "volmesh/tetra/tetra.h"
@@ -65,8 +65,8 @@ Timing insert_points(std::size_t n_points, const RunContext& context) {
   const std::vector<tets::Corners> cube = {{0, 1, 3, 7}, {0, 3, 2, 7}, {0, 2, 6, 7}, {0, 6, 4, 7}, {0, 4, 5, 7}, {0, 5, 1, 7}};
   std::mt19937_64 generator(1);
   std::uniform_real_distribution<double> at(1e-6, 1.0 - 1e-6);
-  std::vector<Vec3> places(n_points);
-  for (Vec3& p : places) {
+  std::vector<Vec3> locations(n_points);
+  for (Vec3& p : locations) {
     p.x = at(generator);
     p.y = at(generator);
     p.z = at(generator);
@@ -77,7 +77,7 @@ Timing insert_points(std::size_t n_points, const RunContext& context) {
   for (std::size_t first = 0, n = 64; first < n_points; first += n, n *= 8) {
     n = std::min(n, n_points - first);
     std::vector<tets::Seed> seeds(n);
-    for (std::size_t i = 0; i < n; ++i) seeds[i].position = places[first + i];
+    for (std::size_t i = 0; i < n; ++i) seeds[i].position = locations[first + i];
     inserter.find_starts(seeds, context);
     inserter.insert(seeds, context);
   }

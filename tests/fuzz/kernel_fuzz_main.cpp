@@ -30,7 +30,7 @@
 #include "scripting/lua/table_reader.h"
 #include "scripting/view/page_server.h"
 #include "tests/geom/tets/grids.h"
-#include "tests/support/shapes.h"
+#include "tests/support/test_shapes.h"
 #include "volmesh/case/mesh_case.h"
 #include "volmesh/envelope/build_envelope.h"
 #include "volmesh/envelope/certificate.h"
@@ -60,7 +60,7 @@ double coordinate(FuzzedDataProvider& bytes) {
   return x;
 }
 
-Vec3 place(FuzzedDataProvider& bytes) {
+Vec3 location(FuzzedDataProvider& bytes) {
   const double x = coordinate(bytes), y = coordinate(bytes), z = coordinate(bytes);
   return {x, y, z};
 }
@@ -77,7 +77,7 @@ mpq_class determinant(const Exact& a, const Exact& b, const Exact& c) {
 
 void fuzz_predicates(FuzzedDataProvider& bytes) {
   std::array<Vec3, 5> p;
-  for (Vec3& x : p) x = place(bytes);
+  for (Vec3& x : p) x = location(bytes);
   std::array<Exact, 4> from_last;
   for (std::size_t k = 0; k < 4; ++k) from_last[k] = exact(p[k]) - exact(p[4]);
   const Exact ab = exact(p[1]) - exact(p[0]), ac = exact(p[2]) - exact(p[0]), ad = exact(p[3]) - exact(p[0]);
@@ -101,7 +101,7 @@ void fuzz_predicates(FuzzedDataProvider& bytes) {
 
 void fuzz_intersections(FuzzedDataProvider& bytes) {
   std::array<Vec3, 6> p;
-  for (Vec3& x : p) x = place(bytes);
+  for (Vec3& x : p) x = location(bytes);
   const auto meet = [&](std::array<std::size_t, 3> a, std::array<std::size_t, 3> b) {
     return triangles_intersect({p[a[0]], p[a[1]], p[a[2]]}, {p[b[0]], p[b[1]], p[b[2]]});
   };
@@ -141,7 +141,7 @@ void fuzz_space(FuzzedDataProvider& bytes) {
   tets::TetMesh mesh = tets::connect(cube.points, cube.tetrahedra, quiet_context());
   std::vector<tets::Seed> seeds(bytes.ConsumeIntegralInRange<std::size_t>(0, 40));
   for (tets::Seed& seed : seeds) {
-    const Vec3 p = place(bytes);
+    const Vec3 p = location(bytes);
     seed.position = Vec3{0.5, 0.5, 0.5} + p / 16.0;
   }
   tets::BulkInserter inserter(mesh, quiet_context());
@@ -236,7 +236,7 @@ void fuzz_table(FuzzedDataProvider& bytes) {
 }
 
 /// Sends these bytes over one connection, with "SECRET" replaced by the secret; returns the whole answer.
-std::string asked(int port, const std::string& secret, std::string text) {
+std::string requested(int port, const std::string& secret, std::string text) {
   for (std::size_t at = 0; (at = text.find("SECRET", at)) != std::string::npos; at += secret.size()) text.replace(at, 6, secret);
   const int connection = socket(AF_INET, SOCK_STREAM, 0);
   sockaddr_in address{};
@@ -269,7 +269,7 @@ void fuzz_requests(FuzzedDataProvider& bytes) {
     return address.substr(begin, address.find('/', begin) - begin);
   }();
   const std::string text = bytes.ConsumeRemainingBytesAsString();
-  const std::string answer = asked(port, secret, text);
+  const std::string answer = requested(port, secret, text);
   if (answer.find(body) != std::string::npos && text.find("SECRET") == std::string::npos) report("an answer without the secret");
 }
 

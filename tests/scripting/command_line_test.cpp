@@ -103,9 +103,9 @@ TEST_F(CommandLine, OutputsAreCheckedBeforeTheWork) {
   const ProcessResult format = sterna({"mesh", "no_such.stl", "--first-height", "1e-3", "-o", "m.docx"});
   EXPECT_EQ(format.status, k_exit_failed);
   EXPECT_NE(format.errors.find("m.docx"), std::string::npos) << format.errors;
-  const ProcessResult place = sterna({"mesh", "no_such.stl", "--first-height", "1e-3", "-o", "nowhere/m.su2"});
-  EXPECT_EQ(place.status, k_exit_failed);
-  EXPECT_NE(place.errors.find("there is no folder nowhere"), std::string::npos) << place.errors;
+  const ProcessResult location = sterna({"mesh", "no_such.stl", "--first-height", "1e-3", "-o", "nowhere/m.su2"});
+  EXPECT_EQ(location.status, k_exit_failed);
+  EXPECT_NE(location.errors.find("there is no folder nowhere"), std::string::npos) << location.errors;
 }
 
 TEST_F(CommandLine, MissingFilesAreNamed) {

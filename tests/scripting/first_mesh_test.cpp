@@ -131,13 +131,13 @@ TEST_F(FirstMesh, StepsAreContinuedToTheSameBytes) {
   };
   run("whole", wing + "volume_mesh{ wall, " + layer + ", " + fill + ", improve_rounds = 5, stages = 'all.sterna' }:write 'whole.su2'");
   run("envelope", wing + "make_envelope{ wall, " + layer + " }:write('env.sterna', 'env.vtu')");
-  const std::string told = run("tetrahedra",
-                               "local s = read_stages 'env.sterna'\nassert(not s.tetrahedra and not s.mesh)\nprint(s.envelope, s.envelope.wall)\n"
-                               "local tets = tetrahedra{ s.envelope, " +
-                                   fill + " }\nprint(tets)\ntets:write 'tets.sterna'");
-  EXPECT_NE(told.find("Envelope: "), std::string::npos) << told;
-  EXPECT_NE(told.find("880 triangles, closed, 4 patches"), std::string::npos) << told;
-  EXPECT_NE(told.find("Tetrahedra: "), std::string::npos) << told;
+  const std::string reported = run("tetrahedra",
+                                   "local s = read_stages 'env.sterna'\nassert(not s.tetrahedra and not s.mesh)\nprint(s.envelope, s.envelope.wall)\n"
+                                   "local tets = tetrahedra{ s.envelope, " +
+                                       fill + " }\nprint(tets)\ntets:write 'tets.sterna'");
+  EXPECT_NE(reported.find("Envelope: "), std::string::npos) << reported;
+  EXPECT_NE(reported.find("880 triangles, closed, 4 patches"), std::string::npos) << reported;
+  EXPECT_NE(reported.find("Tetrahedra: "), std::string::npos) << reported;
   run("prisms", "local s = read_stages 'tets.sterna'\nassert(not s.mesh)\nprisms{ s.envelope, s.tetrahedra, improve_rounds = 5 }:write 'prisms.su2'");
   run("memory", wing + "local env = make_envelope{ wall, " + layer +
                     " }\nlocal tets = tetrahedra{ env, size = { size_growth = 1.8 }, prisms = { wall_perpendicularity = 0.2 } }\nprisms{ env, tets, "
@@ -176,20 +176,20 @@ TEST_F(FirstMesh, StepsThatDoNotFitAreRefused) {
   };
   const std::string env =
       "local wall = read_surface 'box.stl'\nlocal env = make_envelope{ wall, layers = 4, first_height = 1e-3, farfield = sphere{ radius = 10 } }\n";
-  const auto expect_told = [&](const std::string& text, const std::string& part) {
+  const auto expect_reported = [&](const std::string& text, const std::string& part) {
     const std::string errors = error_of(text);
     EXPECT_NE(errors.find(part), std::string::npos) << errors;
   };
-  expect_told(env + "tetrahedra{ wall }", "case.lua:3: tetrahedra: entry 1: expected an envelope (from make_envelope or read_stages), not a surface");
-  expect_told(env + "tetrahedra{ env, layers = 3 }", "unknown key \"layers\"");
-  expect_told(env + "prisms{ env }", "entry 2: expected tetrahedra (from tetrahedra{...} or read_stages), not nothing");
-  expect_told(env + "prisms{ env, tetrahedra{ env }, wall_perpendicularity = 0.3 }", "belongs to tetrahedra{ env, wall_perpendicularity = ... }");
-  expect_told(env + "prisms{ make_envelope{ wall, layers = 4, first_height = 1e-3 }, tetrahedra{ read_stages('env.sterna').envelope } }", "env.sterna");
-  expect_told(env + "env:write 'env.sterna'\nprisms{ env, tetrahedra{ read_stages('env.sterna').envelope } }",
-              "these tetrahedra were made around another envelope");
-  expect_told(env + "tetrahedra{ env }:write 'tets.vtu'", "written to .sterna files only");
-  expect_told(env + "print(env.hight)", "there is no \"hight\"");
-  expect_told("volume_mesh{ read_surface 'box.stl', first_height = 1e-3, stages = 'a.su2' }", "written to .sterna files only");
+  expect_reported(env + "tetrahedra{ wall }", "case.lua:3: tetrahedra: entry 1: expected an envelope (from make_envelope or read_stages), not a surface");
+  expect_reported(env + "tetrahedra{ env, layers = 3 }", "unknown key \"layers\"");
+  expect_reported(env + "prisms{ env }", "entry 2: expected tetrahedra (from tetrahedra{...} or read_stages), not nothing");
+  expect_reported(env + "prisms{ env, tetrahedra{ env }, wall_perpendicularity = 0.3 }", "belongs to tetrahedra{ env, wall_perpendicularity = ... }");
+  expect_reported(env + "prisms{ make_envelope{ wall, layers = 4, first_height = 1e-3 }, tetrahedra{ read_stages('env.sterna').envelope } }", "env.sterna");
+  expect_reported(env + "env:write 'env.sterna'\nprisms{ env, tetrahedra{ read_stages('env.sterna').envelope } }",
+                  "these tetrahedra were made around another envelope");
+  expect_reported(env + "tetrahedra{ env }:write 'tets.vtu'", "written to .sterna files only");
+  expect_reported(env + "print(env.hight)", "there is no \"hight\"");
+  expect_reported("volume_mesh{ read_surface 'box.stl', first_height = 1e-3, stages = 'a.su2' }", "written to .sterna files only");
 }
 
 TEST_F(FirstMesh, AnyThreadCountWritesTheSameBytes) {

@@ -15,7 +15,7 @@
 #include "tests/support/error_of.h"
 #include "tests/support/hybrid_shapes.h"
 #include "tests/support/process.h"
-#include "tests/support/shapes.h"
+#include "tests/support/test_shapes.h"
 #include "volmesh/flow/boundary_layer.h"
 #include "volmesh/volume_mesh.h"
 
@@ -92,12 +92,13 @@ TEST_F(FlowScripts, FirstHeightsByFunctionOfLocation) {
   const HybridMesh mesh = *io::read_sterna(folder_ / "by_place.sterna", RunContext()).mesh;
   ASSERT_GT(mesh.layers.n_lines(), 100u);
   for (std::uint32_t line = 0; line < mesh.layers.n_lines(); ++line) {
-    const Point foot = mesh.points[mesh.layers.node(line, 0)], first = mesh.points[mesh.layers.node(line, 1)];
-    const double asked = 0.01 * std::pow(1.5, foot.x);
+    const Point base_point = mesh.points[mesh.layers.node(line, 0)], first = mesh.points[mesh.layers.node(line, 1)];
+    const double requested = 0.01 * std::pow(1.5, base_point.x);
     // Height above the facets, which form up to 8 degrees with the vertex normal of this ball: 1 % more along that normal.
-    EXPECT_GE(mesh.request.first_height_of(line), asked * (1.0 - 1e-12));
-    EXPECT_LE(mesh.request.first_height_of(line), asked * 1.01);
-    EXPECT_NEAR(distance(foot, first), asked, 0.03 * asked) << format_point(foot);  // G11: 2 % along the vertex normal, and the growth line leans a little
+    EXPECT_GE(mesh.request.first_height_of(line), requested * (1.0 - 1e-12));
+    EXPECT_LE(mesh.request.first_height_of(line), requested * 1.01);
+    EXPECT_NEAR(distance(base_point, first), requested, 0.03 * requested)
+        << format_point(base_point);  // G11: 2 % along the vertex normal, and the growth line leans a little
   }
   // The steps called one by one, also continued from a file, give the same heights. A constant function acts as its number. The number of a rule and that of
   // the command line have priority.
@@ -338,7 +339,7 @@ TEST(Su2Config, NumericsFollowFromTheMesh) {
   const volmesh::FlowState flow = volmesh::flow_state({.length = 1.0, .mach = 0.5, .altitude = 0.0});
   const auto made = [&](double degrees, double cfl, double alpha) {
     return su2_config(mesh, {.mesh = "a.su2", .solver = "RANS", .cfl = cfl}, {.alpha = alpha}, flow, {.area = 30.0}, {}, RunContext(),
-                      {.worst = degrees * k_degree, .place = Point{1, 2, 3}});
+                      {.worst = degrees * k_degree, .location = Point{1, 2, 3}});
   };
   const auto adapted = [&](double degrees, double cfl) { return keys_of(made(degrees, cfl, 0.0)).at("CFL_ADAPT_PARAM"); };
   EXPECT_EQ(adapted(30, k_automatic), "( 0.1, 1.2, 10, 1000 )");

@@ -7,8 +7,8 @@
 
 #include "geom/base/error.h"
 #include "tests/scripting/script_fixture.h"
-#include "tests/support/constants.h"
 #include "tests/support/data.h"
+#include "tests/support/test_constants.h"
 
 namespace sterna::scripting {
 namespace {
@@ -398,14 +398,14 @@ TEST_F(GeometryScripts, StepHoldsTheComponentsOfAllScripts) {
 
 /// The parameter around a pole is arbitrary at the pole: halves of a bulge lost their outer border depending on their position.
 TEST_F(GeometryScripts, StepHoldsBulgesAnywhere) {
-  for (const char* const place : {"0, 0, 0", "2.6, 0, 0.45", "-3, 0.2, 1"})
+  for (const char* const location : {"0, 0, 0", "2.6, 0, 0.45", "-3, 0.2, 1"})
     for (const char* const exponent : {"2", "2.5", "4"}) {
-      const std::string bulge = std::string("fairing{ name = 'canopy', position = { ") + place +
+      const std::string bulge = std::string("fairing{ name = 'canopy', position = { ") + location +
                                 " }, length = 3.6, width = 0.85, height = 1.05, exponent = " + exponent + " }:model()";
       EXPECT_EQ(run("local m = " + bulge + " m:write " + out("c.step") + " print(math.abs(read_cad(" + out("c.step") +
                     "):measures().volume / m:measures().volume - 1) < 1e-6)"),
                 "true\n")
-          << place << ", exponent " << exponent;
+          << location << ", exponent " << exponent;
     }
 }
 

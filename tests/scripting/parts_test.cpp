@@ -6,7 +6,7 @@
 #include "scripting/values/model_surface.h"
 #include "scripting/verbs/surface_motion.h"
 #include "tests/scripting/script_fixture.h"
-#include "tests/support/constants.h"
+#include "tests/support/test_constants.h"
 
 namespace sterna::scripting {
 namespace {

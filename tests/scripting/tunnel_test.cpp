@@ -7,8 +7,8 @@
 
 #include "geom/base/error.h"
 #include "tests/scripting/script_fixture.h"
-#include "tests/support/constants.h"
 #include "tests/support/data.h"
+#include "tests/support/test_constants.h"
 
 namespace sterna::scripting {
 namespace {
@@ -224,15 +224,15 @@ TEST_F(TunnelScripts, HalfModelHasItsBoundaryInPlane) {
           "print(math.abs(2*right:measures().area / m:measures().area - 1) < 1e-5)");
   EXPECT_EQ(text, "false\t0\ttrue\ntrue\n");
   std::ifstream file(folder_ / "half.obj");
-  std::size_t n_rim = 0;
+  std::size_t n_border = 0;
   for (std::string line; std::getline(file, line);) {
     double x = 0.0, y = 0.0, z = 0.0;
     if (std::sscanf(line.c_str(), "v %lf %lf %lf", &x, &y, &z) != 3) continue;
     EXPECT_TRUE(y == 0.0 || y > 1e-6) << line;
     EXPECT_FALSE(std::signbit(y)) << line;
-    n_rim += y == 0.0 ? 1 : 0;
+    n_border += y == 0.0 ? 1 : 0;
   }
-  EXPECT_GT(n_rim, 30u);
+  EXPECT_GT(n_border, 30u);
   EXPECT_THAT(error("half(box{ {0,1,0}, {1,2,1} })"), HasSubstr("does not reach the plane y = 0"));
 }
 

@@ -23,14 +23,14 @@ class WakeScripts : public ScriptFixture {
     return text.substr(0, text.find("local mesh ="));
   }
   /// Returns the part of the output of a check from "node-centred: " to the next semicolon.
-  static std::string failed(const std::string& told) {
-    const std::size_t begin = told.find("node-centred: ");
-    return begin == std::string::npos ? "" : told.substr(begin, told.find(';', begin) - begin);
+  static std::string failed(const std::string& reported) {
+    const std::size_t begin = reported.find("node-centred: ");
+    return begin == std::string::npos ? "" : reported.substr(begin, reported.find(';', begin) - begin);
   }
 };
 
 TEST_F(WakeScripts, FiveSheetsOfAircraftLeaveNoFlatTetrahedra) {  // with this farfield our own refinement got stuck below the wing's sheet
-  const std::string told = run(
+  const std::string reported = run(
       aircraft() +
           "local mesh = volume_mesh{ wall, layers = 20, first_height = 1e-5, farfield = sphere{ radius = 200 }, wakes = 'auto', improve = { improve_rounds = 0 "
           "} "
@@ -38,9 +38,9 @@ TEST_F(WakeScripts, FiveSheetsOfAircraftLeaveNoFlatTetrahedra) {  // with this f
       {}, 2);
   EXPECT_THAT(log_, HasSubstr("wake sheets behind 5 trailing edges"));
   EXPECT_THAT(log_, Not(HasSubstr("refinement stopped early")));  // refinement got stuck before cavities that would fall apart were enlarged
-  EXPECT_THAT(told, HasSubstr("VALID; cell-centred: FAIL"));
-  EXPECT_THAT(told, Not(HasSubstr("INVALID")));
-  EXPECT_THAT(failed(told) + " ", Not(HasSubstr("G5 ")));  // G5 of the nodes on the tetrahedra over the sheets: 0.6 degrees where these are flat
+  EXPECT_THAT(reported, HasSubstr("VALID; cell-centred: FAIL"));
+  EXPECT_THAT(reported, Not(HasSubstr("INVALID")));
+  EXPECT_THAT(failed(reported) + " ", Not(HasSubstr("G5 ")));  // G5 of the nodes on the tetrahedra over the sheets: 0.6 degrees where these are flat
 }
 
 }  // namespace

@@ -169,7 +169,7 @@ Point mean_of(const Mesh& mesh, const std::vector<std::int64_t>& nodes) {
   return sum;
 }
 
-std::string place(const Point& p) {
+std::string location(const Point& p) {
   char text[100];
   std::snprintf(text, sizeof text, "(%.9g, %.9g, %.9g)", p[0], p[1], p[2]);
   return text;
@@ -237,7 +237,7 @@ bool indices_are_good(const Mesh& mesh, Findings& findings) {
       return;
     }
     if (std::adjacent_find(sorted.begin(), sorted.end()) != sorted.end()) {
-      findings.add("repeated_node", std::string(what) + " at " + place(mesh.points[sorted.front()]));
+      findings.add("repeated_node", std::string(what) + " at " + location(mesh.points[sorted.front()]));
       good = false;
     }
     if (counts)
@@ -251,7 +251,7 @@ bool indices_are_good(const Mesh& mesh, Findings& findings) {
       findings.add("not_finite", "point " + std::to_string(i));
       good = false;
     } else if (used[i] == 0) {
-      findings.add("unused_node", place(mesh.points[i]));
+      findings.add("unused_node", location(mesh.points[i]));
     }
   }
   return good;
@@ -305,7 +305,7 @@ std::vector<BoundaryFace> match_faces(const Mesh& mesh, std::vector<std::array<s
     std::size_t end = i;
     while (end < faces.size() && faces[end].key == faces[i].key) ++end;
     const Face &a = faces[i], &b = faces[std::min(i + 1, end - 1)];
-    const std::string where = place(mesh.points[faces[i].key[0]]);
+    const std::string where = location(mesh.points[faces[i].key[0]]);
     if (end - i != 2) {
       findings.add(end - i == 1 ? (a.owner < 0 ? "marker_face_of_no_cell" : "face_without_neighbour_or_marker") : "face_of_more_than_two", where);
     } else if (a.owner < 0) {
@@ -340,11 +340,11 @@ void look_at_volumes(const Mesh& mesh, Real& total, Findings& findings) {
     const Real volume = volume_of(mesh, cell);
     total += volume;
     const char* names = cell.kind == 10 ? "tetrahedron" : cell.kind == 13 ? "prism" : cell.kind == 14 ? "pyramid" : "hexahedron";
-    if (!(volume > 0)) findings.add("volume_not_positive", std::string(names) + " at " + place(mean_of(mesh, cell.nodes)));
+    if (!(volume > 0)) findings.add("volume_not_positive", std::string(names) + " at " + location(mean_of(mesh, cell.nodes)));
     for (const auto& corner : k_corners.at(cell.kind)) {
       const auto& n = cell.nodes;
       if (!(six_volumes(mesh.points[n[corner[0]]], mesh.points[n[corner[1]]], mesh.points[n[corner[2]]], mesh.points[n[corner[3]]]) > 0)) {
-        findings.add("corner_not_positive", std::string(names) + " at " + place(mesh.points[n[corner[0]]]));
+        findings.add("corner_not_positive", std::string(names) + " at " + location(mesh.points[n[corner[0]]]));
         break;
       }
     }
@@ -368,7 +368,7 @@ void look_at_boundary(const Mesh& mesh, const std::vector<BoundaryFace>& boundar
       root[find(a)] = find(b);
     }
   for (const auto& [edge, balance] : sense)
-    if (balance != 0) findings.add("boundary_open", place(mesh.points[edge.first]));
+    if (balance != 0) findings.add("boundary_open", location(mesh.points[edge.first]));
   if (boundary.empty()) return findings.add("no_boundary", "");
   std::map<std::int64_t, Real> pieces;
   const Point origin = mesh.points[boundary.front().nodes.front()];
@@ -415,7 +415,7 @@ void look_for_overlaps(const Mesh& mesh, Findings& findings) {
     for (std::size_t c = 0; c < mesh.cells.size(); ++c) {
       bool may = c != s;
       for (int k = 0; k < 3 && may; ++k) may = boxes[c][0][k] < at[k] && at[k] < boxes[c][1][k];
-      if (may && holds(mesh, mesh.cells[c], at)) findings.add("cells_overlap", place(at));
+      if (may && holds(mesh, mesh.cells[c], at)) findings.add("cells_overlap", location(at));
     }
   }
 }

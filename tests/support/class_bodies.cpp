@@ -6,7 +6,7 @@
 #include <set>
 #include <tuple>
 
-#include "tests/support/shapes.h"
+#include "tests/support/test_shapes.h"
 
 namespace sterna::test {
 namespace {

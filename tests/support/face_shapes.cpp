@@ -7,7 +7,7 @@
 #include "geom/model/analytic_surfaces.h"
 #include "geom/model/spline.h"
 #include "surfmesh/face/face_sizes.h"
-#include "tests/support/constants.h"
+#include "tests/support/test_constants.h"
 
 namespace sterna::test {
 namespace {
@@ -121,10 +121,10 @@ std::vector<double> cut(const Surface& surface, const surfmesh::CurvatureSizes& 
   const int n = is_pole ? 1 : std::max(2, static_cast<int>(std::lround(length.back())));
   std::vector<double> at;
   for (int k = 0; k < n; ++k) {
-    const double wanted = length.back() * k / n;
-    const auto i = static_cast<std::size_t>(std::max<std::ptrdiff_t>(1, std::lower_bound(length.begin() + 1, length.end(), wanted) - length.begin()));
+    const double expected = length.back() * k / n;
+    const auto i = static_cast<std::size_t>(std::max<std::ptrdiff_t>(1, std::lower_bound(length.begin() + 1, length.end(), expected) - length.begin()));
     const double gap = length[i] - length[i - 1];
-    at.push_back((static_cast<double>(i - 1) + (gap > 0.0 ? (wanted - length[i - 1]) / gap : 0.0)) / k_samples);
+    at.push_back((static_cast<double>(i - 1) + (gap > 0.0 ? (expected - length[i - 1]) / gap : 0.0)) / k_samples);
   }
   return at;
 }

@@ -6,7 +6,7 @@
 #include <vector>
 
 #include "geom/model/surface.h"
-#include "surfmesh/face/face_mesh.h"
+#include "surfmesh/face/sized_face_mesh.h"
 
 namespace sterna::test {
 

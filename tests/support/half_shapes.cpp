@@ -4,28 +4,28 @@
 #include <cmath>
 
 #include "tests/support/halves.h"
-#include "tests/support/shapes.h"
+#include "tests/support/test_shapes.h"
 
 namespace sterna::test {
 namespace {
 
 /// Returns the vertices of the open boundary, ordered by their angle about y.
-std::vector<std::uint32_t> rim_of(const TriMesh& wall) {
-  std::vector<std::uint32_t> rim;
+std::vector<std::uint32_t> border_of(const TriMesh& wall) {
+  std::vector<std::uint32_t> border;
   for (const VertexId v : wall.points.ids())
-    if (wall.points[v].y == 0.0) rim.push_back(v.value());
+    if (wall.points[v].y == 0.0) border.push_back(v.value());
   const auto angle = [&](std::uint32_t v) { return std::atan2(wall.points[VertexId(v)].z, wall.points[VertexId(v)].x); };
-  std::sort(rim.begin(), rim.end(), [&](std::uint32_t a, std::uint32_t b) { return angle(a) < angle(b); });
-  return rim;
+  std::sort(border.begin(), border.end(), [&](std::uint32_t a, std::uint32_t b) { return angle(a) < angle(b); });
+  return border;
 }
 
 std::vector<std::uint32_t> collapsed_at(const TriMesh& wall) {
-  const std::vector<std::uint32_t> rim = rim_of(wall);
-  const std::size_t n = rim.size();
-  std::vector<std::uint32_t> collapsed = {rim[0], rim[n / 3], rim[n / 3 + 1], rim[2 * n / 3]};
+  const std::vector<std::uint32_t> border = border_of(wall);
+  const std::size_t n = border.size();
+  std::vector<std::uint32_t> collapsed = {border[0], border[n / 3], border[n / 3 + 1], border[2 * n / 3]};
   for (const TriangleVertices& t : wall.triangles)
     for (std::size_t k = 0; k < 3; ++k)
-      if (t[k].value() == rim[2 * n / 3] && wall.points[t[(k + 1) % 3]].y > 0.0) {
+      if (t[k].value() == border[2 * n / 3] && wall.points[t[(k + 1) % 3]].y > 0.0) {
         collapsed.push_back(t[(k + 1) % 3].value());
         return collapsed;
       }
@@ -37,7 +37,7 @@ std::vector<std::uint32_t> collapsed_at(const TriMesh& wall) {
 HybridMesh half_sphere_shell(int f, const HalfShellOptions& options) {
   const TriMesh wall = cut_off(sphere(f), 1, 0.0);
   ShellOptions shell = options.shell;
-  if (options.has_collapsed_rim) shell.collapsed = collapsed_at(wall);
+  if (options.has_collapsed_border) shell.collapsed = collapsed_at(wall);
   HybridMesh mesh = extrude(wall, rays_from(wall, {}), shell);
   for (Patch& patch : mesh.patches)
     if (patch.name == "side") patch = {"symmetry", PatchKind::symmetry};

@@ -8,7 +8,8 @@ namespace sterna::test {
 
 struct HalfShellOptions {
   ShellOptions shell;
-  bool has_collapsed_rim = false;  ///< zero height: a growth line on the boundary, another with its neighbour on the boundary, another with an inner neighbour
+  bool has_collapsed_border =
+      false;  ///< zero height: a growth line on the boundary, another with its neighbour on the boundary, another with an inner neighbour
 };
 
 /// Returns the half y >= 0 of sphere_shell(f): patches "sphere" (wall), "farfield", and "symmetry" at exactly y = 0.

@@ -4,7 +4,7 @@
 #include <cmath>
 
 #include "geom/mesh/topology.h"
-#include "tests/support/shapes.h"
+#include "tests/support/test_shapes.h"
 
 namespace sterna::test {
 namespace {

@@ -40,15 +40,15 @@ void expect_sound(const Model& model, const surfmesh::SurfaceMesh& surface) {
   expect_joined(model, surface);
   const TriMesh& mesh = surface.mesh;
   EXPECT_EQ(surface.report.n_crossings, 0);
-  ASSERT_EQ(surface.places.size(), mesh.n_vertices());
-  ASSERT_EQ(surface.edge_places.size(), mesh.n_vertices());
+  ASSERT_EQ(surface.locations.size(), mesh.n_vertices());
+  ASSERT_EQ(surface.edge_locations.size(), mesh.n_vertices());
   ASSERT_EQ(surface.triangle_face.size(), mesh.n_triangles());
   const double length = bounding_box(mesh).longest_side();
   for (const VertexId v : mesh.points.ids()) {
-    const VertexPlace& place = surface.places[v];
-    const surfmesh::EdgePlace& on = surface.edge_places[v];
-    ASSERT_TRUE(place.face.is_valid());
-    const double off = distance(model.faces[place.face].surface->point(place.at), mesh.points[v]);
+    const VertexLocation& location = surface.locations[v];
+    const surfmesh::EdgeLocation& on = surface.edge_locations[v];
+    ASSERT_TRUE(location.face.is_valid());
+    const double off = distance(model.faces[location.face].surface->point(location.at), mesh.points[v]);
     EXPECT_LE(off, on.edge.is_valid() ? surface.report.max_edge_distance + 1e-12 * length : std::max(1e-9 * length, surface.report.max_edge_distance));
     if (on.edge.is_valid()) {
       EXPECT_EQ(model.edges[on.edge].curve->point(on.t), mesh.points[v]);

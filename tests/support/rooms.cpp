@@ -11,15 +11,15 @@
 namespace sterna::test {
 namespace {
 
-using Place = std::array<int, 3>;
+using Location = std::array<int, 3>;
 
 /// Builds a mesh from vertices at grid positions and patches by name.
 class Builder {
  public:
   TriMesh mesh;
 
-  VertexId vertex(const Place& place, const Point& p) {
-    const auto [found, is_new] = vertices_.try_emplace(place, VertexId(mesh.n_vertices()));
+  VertexId vertex(const Location& location, const Point& p) {
+    const auto [found, is_new] = vertices_.try_emplace(location, VertexId(mesh.n_vertices()));
     if (is_new) mesh.points.push_back(p);
     return found->second;
   }
@@ -37,7 +37,7 @@ class Builder {
   }
 
  private:
-  std::map<Place, VertexId> vertices_;
+  std::map<Location, VertexId> vertices_;
   std::map<std::string, PatchId> patches_;
 };
 

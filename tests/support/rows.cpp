@@ -4,7 +4,7 @@
 #include "geom/model/airfoil.h"
 #include "geom/model/components.h"
 #include "geom/model/shapes.h"
-#include "tests/support/constants.h"
+#include "tests/support/test_constants.h"
 
 namespace sterna::test {
 

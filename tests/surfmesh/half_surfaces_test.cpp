@@ -9,8 +9,8 @@
 #include "geom/mesh/topology.h"
 #include "io/file/surface_file.h"
 #include "surfmesh/stitch/stitch_surface.h"
-#include "tests/support/constants.h"
 #include "tests/support/data.h"
+#include "tests/support/test_constants.h"
 
 namespace sterna {
 namespace {
@@ -41,7 +41,7 @@ Sizes sizes_of(const TriMesh& mesh, double at) {
   return sizes;
 }
 
-void expect_rim(const TriMesh& half, double at) {
+void expect_border(const TriMesh& half, double at) {
   const Topology topology(half, k_context);
   std::vector<int> n_from(half.n_vertices(), 0), n_to(half.n_vertices(), 0);
   std::size_t n_off = 0;
@@ -79,7 +79,7 @@ Missing cut_in_two(const TriMesh& full, const HalfOptions& options) {
     HalfOptions of_side = options;
     of_side.keep = keep;
     const TriMesh half = half_of(full, of_side, k_context);
-    expect_rim(half, options.at);
+    expect_border(half, options.at);
     const Sizes sizes = sizes_of(half, options.at);
     missing.area += sizes.area / whole.area;
     missing.volume += sizes.volume / whole.volume;

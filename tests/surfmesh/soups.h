@@ -8,7 +8,7 @@
 #include "geom/mesh/find_crossings.h"
 #include "geom/mesh/topology.h"
 #include "surfmesh/stitch/stitch_surface.h"
-#include "tests/support/shapes.h"
+#include "tests/support/test_shapes.h"
 
 namespace sterna::test {
 
@@ -68,7 +68,7 @@ inline ErrorInfo stitch_error(const std::vector<SurfaceSoup>& soups, const surfm
   } catch (const Error& error) {
     ErrorInfo info = error.info();
     info.attempted = error.what();  // the whole message, for tests of the wording
-    info.n_places = error.n_places();
+    info.n_locations = error.n_locations();
     return info;
   }
   ADD_FAILURE() << "the surface was accepted";

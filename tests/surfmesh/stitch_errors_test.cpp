@@ -50,9 +50,9 @@ TEST(StitchErrors, ToleranceAboveTheLimit) {
 TEST(StitchErrors, OneFacetMissing) {
   const ErrorInfo info = stitch_error({without_facet(soup_of(cube(2)), 20)}, {.unit = 0.001});
   EXPECT_EQ(info.code, ErrorCode::open_surface);
-  EXPECT_EQ(info.n_places, 3);
-  ASSERT_EQ(info.places.size(), 3u);
-  for (const ErrorPlace& place : info.places) EXPECT_LE(norm(place.position), 0.001 * std::sqrt(3.0)) << "coordinates are metres";
+  EXPECT_EQ(info.n_locations, 3);
+  ASSERT_EQ(info.locations.size(), 3u);
+  for (const ErrorLocation& location : info.locations) EXPECT_LE(norm(location.position), 0.001 * std::sqrt(3.0)) << "coordinates are metres";
   EXPECT_EQ(info.geometry.edges.size(), 3u);
   EXPECT_THAT(info.attempted, HasSubstr("open along 3 edges around 1 hole"));
   EXPECT_THAT(info.attempted, HasSubstr("joining shape.stl to one surface"));
@@ -76,9 +76,9 @@ TEST(StitchErrors, ThreeFacetsAtAnEdge) {
   add_facet(soup, {0, 0, 0}, {1, 0, 0}, {0.5, -1, -1});
   const ErrorInfo info = stitch_error({soup});
   EXPECT_EQ(info.code, ErrorCode::non_manifold_surface);
-  EXPECT_EQ(info.n_places, 1);
-  EXPECT_EQ(info.places.at(0).position, (Vec3{0.5, 0, 0}));
-  EXPECT_THAT(info.places.at(0).what, HasSubstr("edge of 3 facets"));
+  EXPECT_EQ(info.n_locations, 1);
+  EXPECT_EQ(info.locations.at(0).position, (Vec3{0.5, 0, 0}));
+  EXPECT_THAT(info.locations.at(0).what, HasSubstr("edge of 3 facets"));
   EXPECT_THAT(info.attempted, HasSubstr("1 edge has more than two facets; in addition 2 boundary edges"));
   EXPECT_EQ(info.geometry.edges.size(), 1u);
   EXPECT_EQ(info.geometry.triangles.size(), 3u);
@@ -87,8 +87,8 @@ TEST(StitchErrors, ThreeFacetsAtAnEdge) {
 TEST(StitchErrors, CubesThatShareAnEdge) {
   const ErrorInfo info = stitch_error({soup_of(cube()), shifted(soup_of(cube()), {1, 1, 0})});
   EXPECT_EQ(info.code, ErrorCode::non_manifold_surface);
-  EXPECT_EQ(info.n_places, 1);
-  EXPECT_EQ(info.places.at(0).position, (Vec3{1, 1, 0.5}));
+  EXPECT_EQ(info.n_locations, 1);
+  EXPECT_EQ(info.locations.at(0).position, (Vec3{1, 1, 0.5}));
 }
 
 TEST(StitchErrors, CubesThatTouchInAVertexCross) {
@@ -106,8 +106,8 @@ TEST(StitchErrors, VertexWithTwoFans) {
     if (p == Vec3{0.5, 0.5, 1.0}) p = {0.5, 0.5, 0.0};
   const ErrorInfo info = stitch_error({soup});
   EXPECT_EQ(info.code, ErrorCode::non_manifold_surface);
-  EXPECT_EQ(info.n_places, 1);
-  EXPECT_EQ(info.places.at(0).position, (Vec3{0.5, 0.5, 0}));
+  EXPECT_EQ(info.n_locations, 1);
+  EXPECT_EQ(info.locations.at(0).position, (Vec3{0.5, 0.5, 0}));
   EXPECT_THAT(info.attempted, HasSubstr("1 vertex joins several fans"));
   EXPECT_EQ(info.geometry.vertices.size(), 1u);
 }
@@ -134,7 +134,7 @@ TEST(StitchErrors, MoebiusStrip) {
   EXPECT_THAT(stitch_error({soup}).attempted, HasSubstr("in addition 1 component without a consistent orientation"));
   const ErrorInfo info = stitch_error({soup}, {.allow_open = true});
   EXPECT_EQ(info.code, ErrorCode::not_orientable);
-  EXPECT_EQ(info.n_places, 1);
+  EXPECT_EQ(info.n_locations, 1);
   EXPECT_THAT(info.attempted, HasSubstr("Moebius"));
 }
 
@@ -142,9 +142,9 @@ TEST(StitchErrors, CrossingBodies) {
   const std::vector<SurfaceSoup> soups = {soup_of(sphere(3)), shifted(soup_of(sphere(3)), {0.9, 0.1, 0.2})};
   const ErrorInfo info = stitch_error(soups);
   EXPECT_EQ(info.code, ErrorCode::self_intersection);
-  EXPECT_GT(info.n_places, 10);
-  EXPECT_GT(info.places.size(), 1u);
-  EXPECT_LE(info.places.size(), 10u);
+  EXPECT_GT(info.n_locations, 10);
+  EXPECT_GT(info.locations.size(), 1u);
+  EXPECT_LE(info.locations.size(), 10u);
   EXPECT_FALSE(info.geometry.triangles.empty());
   EXPECT_THAT(info.attempted, HasSubstr("pairs of facets cross or touch, all between different bodies"));
   EXPECT_THAT(info.attempted, HasSubstr(" of shape.stl and facet "));

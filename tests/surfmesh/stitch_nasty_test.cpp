@@ -19,7 +19,7 @@ namespace fs = std::filesystem;
 
 struct Expected {
   std::string file, verdict, reason;
-  std::int64_t n_places = 0;
+  std::int64_t n_locations = 0;
 };
 
 std::vector<Expected> expectations() {
@@ -35,15 +35,15 @@ std::vector<Expected> expectations() {
     std::getline(fields, row.verdict, '\t');
     std::getline(fields, n, '\t');
     std::getline(fields, row.reason);
-    row.n_places = std::stoll(n);
+    row.n_locations = std::stoll(n);
     rows.push_back(std::move(row));
   }
   return rows;
 }
 
 /// Prints one row of the final table to the test's output.
-void print_row(const std::string& file, const std::string& verdict, std::int64_t n_places, double seconds, const surfmesh::StitchResult& result) {
-  std::cout << "| " << file << " | " << verdict << " | " << n_places << " | " << result.mesh.n_triangles() << " | " << result.mesh.n_vertices() << " | "
+void print_row(const std::string& file, const std::string& verdict, std::int64_t n_locations, double seconds, const surfmesh::StitchResult& result) {
+  std::cout << "| " << file << " | " << verdict << " | " << n_locations << " | " << result.mesh.n_triangles() << " | " << result.mesh.n_vertices() << " | "
             << result.report.n_components << " | " << result.report.n_flipped << " | " << seconds << " |\n";
 }
 
@@ -71,16 +71,16 @@ TEST(StitchNasty, EveryFileGetsItsVerdict) {
     const Stopwatch watch;
     surfmesh::StitchResult result;
     std::string verdict = "valid";
-    std::int64_t n_places = 0;
+    std::int64_t n_locations = 0;
     try {
       result = surfmesh::stitch_surface({io::read_surface_file(shared_data() / "surfaces" / "nasty" / row.file, context)}, {}, context);
       expect_stitched(result.mesh);
     } catch (const Error& error) {
       verdict = std::string(to_string(error.code()));
       if (error.code() != ErrorCode::unsupported_format) {
-        n_places = error.n_places();
-        EXPECT_FALSE(error.info().places.empty());
-        EXPECT_LE(error.info().places.size(), 10u);
+        n_locations = error.n_locations();
+        EXPECT_FALSE(error.info().locations.empty());
+        EXPECT_LE(error.info().locations.size(), 10u);
         EXPECT_FALSE(error.info().geometry.empty());
         EXPECT_FALSE(error.info().hint.empty());
         EXPECT_THAT(error.what(), testing::HasSubstr(row.file));
@@ -88,9 +88,9 @@ TEST(StitchNasty, EveryFileGetsItsVerdict) {
       }
     }
     EXPECT_EQ(verdict, row.verdict);
-    EXPECT_EQ(n_places, row.n_places);
+    EXPECT_EQ(n_locations, row.n_locations);
     for (const std::string& message : result.report.messages) std::cout << row.file << ": " << message << "\n";
-    print_row(row.file, verdict, n_places, watch.seconds(), result);
+    print_row(row.file, verdict, n_locations, watch.seconds(), result);
   }
 }
 

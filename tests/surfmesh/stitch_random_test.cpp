@@ -18,9 +18,9 @@ std::string verdict_of(const std::vector<SurfaceSoup>& soups, const surfmesh::St
   } catch (const Error& error) {
     EXPECT_NE(error.code(), ErrorCode::internal) << error.what();
     if (error.code() != ErrorCode::empty_surface) {
-      EXPECT_FALSE(error.info().places.empty()) << error.what();
+      EXPECT_FALSE(error.info().locations.empty()) << error.what();
       EXPECT_FALSE(error.info().geometry.empty()) << error.what();
-      EXPECT_GE(error.n_places(), static_cast<std::int64_t>(error.info().places.size()));
+      EXPECT_GE(error.n_locations(), static_cast<std::int64_t>(error.info().locations.size()));
     }
     return std::string(to_string(error.code()));
   }

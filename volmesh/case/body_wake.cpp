@@ -75,7 +75,7 @@ double way_out(const Box& domain, const Point& from, const Vec3& along) {
   return way;
 }
 
-bool wants_family_wake(const FamilyOptions& family) { return family.family_wake == "on" || (family.family_wake == "automatic" && family.refinement != 1.0); }
+bool needs_family_wake(const FamilyOptions& family) { return family.family_wake == "on" || (family.family_wake == "automatic" && family.refinement != 1.0); }
 
 }  // namespace
 
@@ -117,10 +117,10 @@ SizeSource wake_behind(const TriMesh& wall, const BodyWake& wake) {
   return source;
 }
 
-bool has_bare_wake(const TriMesh& surface, const MeshCase& options) { return is_wake_unrefined(surface, options) && !wants_family_wake(options.family); }
+bool has_bare_wake(const TriMesh& surface, const MeshCase& options) { return is_wake_unrefined(surface, options) && !needs_family_wake(options.family); }
 
 MeshCase with_family_wake(const TriMesh& surface, MeshCase options, const RunContext& context) {
-  if (!wants_family_wake(options.family) || !is_wake_unrefined(surface, options)) return options;
+  if (!needs_family_wake(options.family) || !is_wake_unrefined(surface, options)) return options;
   const BodyWake wake;
   TriMesh walls = surface;
   for (Patch& patch : walls.patches) patch.kind = kind_of_patch(patch, options);

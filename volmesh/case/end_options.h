@@ -1,4 +1,4 @@
-// Options for the triangulation of adjacent patches, on which layers end (rims/end_surface.h).
+// Options for the triangulation of adjacent patches, on which layers end (adjacent/adjacent_surface.h).
 #pragma once
 
 #include <numbers>

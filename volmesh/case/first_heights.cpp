@@ -30,17 +30,17 @@ FirstHeights::FirstHeights(const TriMesh& surface, std::vector<double> heights, 
     throw Error({.code = ErrorCode::internal,
                  .attempted = "setting first heights by location",
                  .problem = std::to_string(heights_.size()) + " heights for " + std::to_string(surface_.n_vertices()) + " vertices"});
-  std::vector<ErrorPlace> wrong;
+  std::vector<ErrorLocation> wrong;
   for (const VertexId v : surface_.points.ids()) {
     const double height = heights_[v.index()];
     if (std::isfinite(height) && height >= k_least_first_height) continue;
-    if (wrong.size() < k_max_places) wrong.push_back({surface_.points[v], "first height " + in_metres(height, k_height_digits)});
+    if (wrong.size() < k_max_locations) wrong.push_back({surface_.points[v], "first height " + in_metres(height, k_height_digits)});
   }
   if (!wrong.empty())
     throw Error({.code = ErrorCode::bad_argument,
                  .attempted = "setting first heights by location",
                  .problem = "the function first_height returns values that are not heights of " + in_metres(k_least_first_height, k_height_digits) + " or more",
-                 .places = std::move(wrong),
+                 .locations = std::move(wrong),
                  .hint = "the function is called at every vertex of the surface, also on patches without layers"});
   const auto [least, greatest] = std::minmax_element(heights_.begin(), heights_.end());
   least_ = *least;

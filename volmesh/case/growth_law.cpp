@@ -103,7 +103,7 @@ struct CommonCells {
 
 /// Bend of a growth line that has the target height (at least 0), and the largest bend of a lower line.
 struct Bends {
-  double asked = 0.0, largest = 0.0;
+  double requested = 0.0, largest = 0.0;
 };
 
 Bends bends_of(const LineGrowth& line, int n) {
@@ -139,7 +139,7 @@ CommonCells common_cells(const LineGrowth& line, double height, int n) {
   if (height > lowest) return {line.h0, bend_for_height(line, height, n), line.edge};
   // The first cell is reduced in any case. The lower the growth line is, the more its last cells grow like those of a full-height line.
   const double squeeze = std::clamp((height / lowest - k_unbent) / (1.0 - k_unbent), 0.0, 1.0);
-  const double bend = bends.asked + squeeze * (bends.largest - bends.asked);
+  const double bend = bends.requested + squeeze * (bends.largest - bends.requested);
   const double share = height / bent_sum(line, bend, n).sum;
   if (share >= k_least_edge_share) return {share * line.h0, bend, share * line.edge};
   LineGrowth low = line;
@@ -174,14 +174,14 @@ double height_by_edge(double h0, double edge, double r_max, int n, bool has_comm
 }
 
 double growth_for_height(double h0, double height, int n) {
-  const double wanted = height / h0;
-  if (n == 1 || wanted <= n) return 1.0;
+  const double goal = height / h0;
+  if (n == 1 || goal <= n) return 1.0;
   // The sum exceeds its last term (1+q)^(n-1), so this start lies above the root. The sum is convex in q, so Newton's method descends monotonically.
-  double q = std::expm1(std::log(wanted) / (n - 1));
+  double q = std::expm1(std::log(goal) / (n - 1));
   for (int step = 0; step < k_newton_steps; ++step) {
     const double s = geometric_sum(q, n);
     const double slope = q < k_near_one ? 0.5 * n * (n - 1) : (n * std::exp((n - 1) * std::log1p(q)) - s) / q;
-    const double next = std::max(0.0, q - (s - wanted) / slope);
+    const double next = std::max(0.0, q - (s - goal) / slope);
     const bool is_done = std::abs(next - q) <= k_ratio_tolerance * q;
     q = next;
     if (is_done) break;

@@ -254,7 +254,7 @@ void warn_of_sources_outside(const TriMesh& boundary, const MeshCase& options, c
   }
 }
 
-void warn_of_unused_ends(const EndOptions& given, const RunContext& context) {
+void warn_of_unused_end_options(const EndOptions& given, const RunContext& context) {
   const EndOptions defaults;
   std::vector<std::string> changed;
   if (given.size_growth != defaults.size_growth) changed.push_back("ends_growth = " + number_text(given.size_growth));

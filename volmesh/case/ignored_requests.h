@@ -30,6 +30,6 @@ void require_used_farfield(const FarfieldOptions& options);
 void warn_of_sources_outside(const TriMesh& boundary, const MeshCase& options, const RunContext& context);
 
 /// Warns of options for adjacent patches (ends_growth etc.) that are set although no patch of the model is triangulated with them.
-void warn_of_unused_ends(const EndOptions& given, const RunContext& context);
+void warn_of_unused_end_options(const EndOptions& given, const RunContext& context);
 
 }  // namespace sterna::volmesh

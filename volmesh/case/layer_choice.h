@@ -25,7 +25,7 @@ struct LayerChoice {
 /// messages.
 /// \post n h0 <= H <= the height of n layers that grow by r
 /// \throws Error(bad_argument) if no such layer exists; the message contains numbers that would work
-LayerChoice solve_layers(LayerChoice asked, std::string_view solve_for, std::string_view where);
+LayerChoice solve_layers(LayerChoice requested, std::string_view solve_for, std::string_view where);
 
 /// Returns the value of solve_for if only some of the three parameters are given: "layers" or "max_growth", or "none" if the total height is not given.
 /// \throws Error(bad_argument) if all three or only the total height are given

@@ -14,7 +14,6 @@
 #include "volmesh/case/first_heights.h"
 #include "volmesh/case/improve_options.h"
 #include "volmesh/case/limit_options.h"
-#include "volmesh/case/needle_options.h"
 #include "volmesh/case/patch_rule.h"
 #include "volmesh/case/periodic_names.h"
 #include "volmesh/case/placed_part.h"
@@ -22,6 +21,7 @@
 #include "volmesh/case/ridge_options.h"
 #include "volmesh/case/size_options.h"
 #include "volmesh/case/size_sources.h"
+#include "volmesh/case/sliver_options.h"
 #include "volmesh/case/tetra_options.h"
 #include "volmesh/case/wake_sheet.h"
 
@@ -30,7 +30,7 @@ namespace sterna::volmesh {
 /// Options of all stages, in the order of the stages. Each struct has a Schema.
 struct MeshOptions {
   FamilyOptions family;
-  NeedleOptions needles;
+  SliverOptions needles;
   RidgeOptions ridges;
   EnvelopeOptions envelope;
   PrismOptions prisms;

@@ -9,8 +9,8 @@
 namespace sterna::volmesh {
 namespace {
 
-constexpr double k_told = 0.1;   ///< fraction of the wall area above which a report is made
-constexpr double k_reach = 0.9;  ///< fraction of the wall area that the recommended number of layers must reach
+constexpr double k_reported = 0.1;  ///< fraction of the wall area above which a report is made
+constexpr double k_reach = 0.9;     ///< fraction of the wall area that the recommended number of layers must reach
 
 bool is_one_request(const MeshCase& options) {
   const EnvelopeOptions& e = options.envelope;
@@ -19,7 +19,7 @@ bool is_one_request(const MeshCase& options) {
 }
 
 /// Smallest height of the last cell that fits the tetrahedra, and the area of its triangle.
-struct Wanted {
+struct LastHeight {
   double height, area;
 };
 
@@ -29,22 +29,22 @@ std::optional<ThinLayers> thin_layers(const TriMesh& surface, const MeshCase& op
   if (!is_one_request(options)) return std::nullopt;
   const EnvelopeOptions& e = options.envelope;
   const double last = e.first_height * std::pow(e.max_growth, e.layers - 1), jump = info_of(Measure::interface_height).limits.usual;
-  std::vector<Wanted> wanted;
+  std::vector<LastHeight> target;
   double area = 0.0, thin = 0.0;
   for (const TriangleId t : surface.triangles.ids()) {
     if (surface.patches[surface.triangle_patch[t]].kind != PatchKind::wall) continue;
     const std::array<Point, 3> p = corners(surface, t);
     const double edge = (distance(p[0], p[1]) + distance(p[1], p[2]) + distance(p[2], p[0])) / 3.0;
-    wanted.push_back({k_regular_height * edge / jump, 0.5 * norm(cross(p[1] - p[0], p[2] - p[0]))});
-    area += wanted.back().area;
-    if (last < wanted.back().height) thin += wanted.back().area;
+    target.push_back({k_regular_height * edge / jump, 0.5 * norm(cross(p[1] - p[0], p[2] - p[0]))});
+    area += target.back().area;
+    if (last < target.back().height) thin += target.back().area;
   }
-  if (!(thin > k_told * area)) return std::nullopt;
-  std::ranges::sort(wanted, {}, [](const Wanted& w) { return std::pair(w.height, w.area); });
+  if (!(thin > k_reported * area)) return std::nullopt;
+  std::ranges::sort(target, {}, [](const LastHeight& w) { return std::pair(w.height, w.area); });
   double below = 0.0, height = 0.0;
-  for (std::size_t i = 0; i < wanted.size() && below < k_reach * area; ++i) {
-    below += wanted[i].area;
-    height = wanted[i].height;
+  for (std::size_t i = 0; i < target.size() && below < k_reach * area; ++i) {
+    below += target[i].area;
+    height = target[i].height;
   }
   return ThinLayers{.share = thin / area, .enough = 1 + static_cast<int>(std::ceil(std::log(height / e.first_height) / std::log(e.max_growth)))};
 }

@@ -13,7 +13,7 @@
 #include "volmesh/case/ignored_requests.h"
 #include "volmesh/domain/end_planes.h"
 #include "volmesh/domain/farfield.h"
-#include "volmesh/domain/flatten_rims.h"
+#include "volmesh/domain/flatten_borders.h"
 #include "volmesh/domain/floor.h"
 #include "volmesh/domain/shape_sizes.h"
 
@@ -76,7 +76,7 @@ bool is_enclosing(const TriMesh& mesh, const Topology& topology, std::span<const
                  .hint = "reverse the triangles of the wrong parts"};
   for (const TriangleId t : mesh.triangles.ids())
     if (std::find(outer.begin(), outer.end(), components.component[t]) != outer.end() && is_domain(components.component[t])) {
-      info.places.push_back({corners(mesh, t)[0], "normals inwards"});
+      info.locations.push_back({corners(mesh, t)[0], "normals inwards"});
       break;
     }
   throw Error(std::move(info));
@@ -96,9 +96,9 @@ void check_encloses(const TriMesh& surface, const Topology& topology, std::span<
     const Point p = corners(surface, t)[0];
     if (std::any_of(ends.begin(), ends.end(), [&](const EndPlane& end) { return p[end.axis] == end.at; })) continue;
     is_seen[components.component[t]] = 1;
-    if (std::abs(tree.winding_number(p)) < 0.5) info.places.push_back({p, "this part is outside the farfield surface"});
+    if (std::abs(tree.winding_number(p)) < 0.5) info.locations.push_back({p, "this part is outside the farfield surface"});
   }
-  if (!info.places.empty()) throw Error(std::move(info));
+  if (!info.locations.empty()) throw Error(std::move(info));
 }
 
 void turn(TriMesh& mesh) {
@@ -294,9 +294,9 @@ void make_names_new(const TriMesh& surface, Patch& patch) {
 }
 
 /// Moves open-boundary vertices exactly into the planes. A vertex on two planes is moved into both.
-void snap_rims(const Constraints& rims, std::span<const EndPlane> ends, TriMesh& mesh) {
-  for (const VertexId v : rims.vertex.ids())
-    for (const std::int32_t k : rims.vertex[v].on)
+void snap_borders(const Constraints& borders, std::span<const EndPlane> ends, TriMesh& mesh) {
+  for (const VertexId v : borders.vertex.ids())
+    for (const std::int32_t k : borders.vertex[v].on)
       if (k >= 0) mesh.points[v][ends[static_cast<std::size_t>(k)].axis] = ends[static_cast<std::size_t>(k)].at;
 }
 
@@ -356,10 +356,10 @@ TriMesh complete_boundary(const TriMesh& surface, const OuterOptions& options, c
   const Topology topology(surface, context);
   if (!options.farfield.farfield_floor.empty()) return complete_over_floor(surface, topology, options.farfield, context, planes);
   TriMesh mesh = surface;
-  flatten_rims(topology, mesh, context);
-  const Constraints rims = constraints_of_rims(mesh, topology);
-  const std::vector<EndPlane> ends = end_planes_of(rims);
-  snap_rims(rims, ends, mesh);
+  flatten_borders(topology, mesh, context);
+  const Constraints borders = constraints_of_borders(mesh, topology);
+  const std::vector<EndPlane> ends = end_planes_of(borders);
+  snap_borders(borders, ends, mesh);
   const bool is_enclosed = is_enclosing(mesh, topology, ends);
   require_fluid(options.farfield, is_enclosed);
   OuterOptions outer = options;
@@ -387,22 +387,22 @@ TriMesh complete_boundary(const TriMesh& surface, const OuterOptions& options, c
   return mesh;
 }
 
-std::vector<RimPlane> rim_planes_of(const TriMesh& surface, const RunContext& context) {
+std::vector<OpenBorderPlane> open_border_planes_of(const TriMesh& surface, const RunContext& context) {
   const Topology topology(surface, context);
   TriMesh mesh = surface;
-  flatten_rims(topology, mesh, context);
-  const Constraints rims = constraints_of_rims(mesh, topology);
-  const std::vector<EndPlane> ends = end_planes_of(rims);
-  std::vector<RimPlane> planes;
+  flatten_borders(topology, mesh, context);
+  const Constraints borders = constraints_of_borders(mesh, topology);
+  const std::vector<EndPlane> ends = end_planes_of(borders);
+  std::vector<OpenBorderPlane> planes;
   const Box box = bounding_box(mesh);
-  for (const EndPlane& end : ends) planes.push_back({.axis = end.axis, .at = end.at, .is_above = end.inward > 0.0, .rim = {}, .covered = 0.0});
-  for (const VertexId v : rims.vertex.ids())
-    for (const std::int32_t k : rims.vertex[v].on)
-      if (k >= 0) planes[static_cast<std::size_t>(k)].rim.add(mesh.points[v]);
-  const double tolerance = k_rim_tolerance * box.longest_side();
+  for (const EndPlane& end : ends) planes.push_back({.axis = end.axis, .at = end.at, .is_above = end.inward > 0.0, .border = {}, .covered = 0.0});
+  for (const VertexId v : borders.vertex.ids())
+    for (const std::int32_t k : borders.vertex[v].on)
+      if (k >= 0) planes[static_cast<std::size_t>(k)].border.add(mesh.points[v]);
+  const double tolerance = k_border_tolerance * box.longest_side();
   for (const TriangleId t : mesh.triangles.ids()) {
     const auto c = corners(mesh, t);
-    for (RimPlane& plane : planes)
+    for (OpenBorderPlane& plane : planes)
       if (std::ranges::all_of(c, [&](const Point& p) { return std::abs(p[plane.axis] - plane.at) <= tolerance; }))
         plane.covered += triangle_area(c[0], c[1], c[2]);
   }
@@ -415,10 +415,10 @@ std::int64_t turn_to_bodies(TriMesh& surface, const RunContext& context) {
   const Topology topology(surface, context);
   if (topology.n_boundary_halfedges() == 0) return 0;
   TriMesh mesh = surface;
-  flatten_rims(topology, mesh, context);
-  const Constraints rims = constraints_of_rims(mesh, topology);
-  const std::vector<EndPlane> ends = end_planes_of(rims);
-  snap_rims(rims, ends, mesh);
+  flatten_borders(topology, mesh, context);
+  const Constraints borders = constraints_of_borders(mesh, topology);
+  const std::vector<EndPlane> ends = end_planes_of(borders);
+  snap_borders(borders, ends, mesh);
   const Components components = connected_components(mesh, topology);
   const std::vector<double> volumes = volumes_of(mesh, components, ends);
   const std::vector<std::uint32_t> outer = outermost(mesh, components, ends);

@@ -26,8 +26,8 @@ struct AddedPlane {
 };
 
 /// Adds the outer boundary of the fluid: the outer shape around bodies, and the planes x, y or z = constant in which bodies end (half models;
-/// constraints_of_rims). The shape is cut at these planes. A surface that encloses its fluid gets no shape; the normals of its outermost part point inwards (a
-/// tunnel, a complete domain).
+/// constraints_of_borders). The shape is cut at these planes. A surface that encloses its fluid gets no shape; the normals of its outermost part point inwards
+/// (a tunnel, a complete domain).
 ///
 /// Order of the result: the surface's vertices, triangles and patches come first. They are unchanged, except that vertices of open boundaries are moved
 /// bit-exactly into their planes. Then come those of the shape. Those of the planes come last; between the open boundaries they are long thin triangles that
@@ -49,16 +49,16 @@ struct AddedPlane {
 TriMesh complete_boundary(const TriMesh& surface, const OuterOptions& options, const RunContext& context, std::vector<AddedPlane>* planes = nullptr);
 
 /// A plane x, y or z = constant in which an open surface ends.
-struct RimPlane {
+struct OpenBorderPlane {
   std::size_t axis = 0;
   double at = 0.0;       ///< m
   bool is_above = true;  ///< the surface is on the side of larger coordinates
-  Box rim;               ///< m, bounding box of the surface's open-boundary vertices in the plane
+  Box border;            ///< m, bounding box of the surface's open-boundary vertices in the plane
   double covered = 0.0;  ///< m^2, area of the surface in the plane
 };
 /// Returns the planes that contain all open boundaries of the surface; empty for a closed surface.
 /// \throws Error(open_surface) if an open boundary lies in no such plane, or if the surface is on both sides of a plane
-std::vector<RimPlane> rim_planes_of(const TriMesh& surface, const RunContext& context);
+std::vector<OpenBorderPlane> open_border_planes_of(const TriMesh& surface, const RunContext& context);
 
 /// Returns true if the options name or change an outer shape.
 bool is_farfield_given(const FarfieldOptions& options);

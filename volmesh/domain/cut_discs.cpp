@@ -1,5 +1,5 @@
 // Steps for each disc: find_active finds the triangles through which the plane passes between the radii; vertices near the plane are moved into it (snap);
-// triangles are split; find_outline; find_rims.
+// triangles are split; find_outline; find_borders.
 #include "volmesh/domain/cut_discs.h"
 
 #include <algorithm>
@@ -12,8 +12,8 @@
 #include "geom/base/error.h"
 #include "geom/math/measures.h"
 #include "geom/mesh/topology.h"
+#include "volmesh/domain/disc_baffles.h"
 #include "volmesh/domain/disc_plane.h"
-#include "volmesh/domain/disc_sheets.h"
 
 namespace sterna::volmesh {
 namespace {
@@ -43,8 +43,8 @@ class Cutter {
       height_[v] = std::abs(h) <= k_on_plane * largest ? 0.0 : h;
     }
     is_active_.assign(mesh_.n_triangles(), 0);
-    std::vector<ErrorPlace> at_rims;
-    std::int64_t n_at_rims = 0;
+    std::vector<ErrorLocation> at_borders;
+    std::int64_t n_at_borders = 0;
     bool has_any = false, is_layered = true;
     for (const TriangleId t : mesh_.triangles.ids()) {
       const std::optional<std::array<Point, 2>> cut = segment(t);
@@ -52,9 +52,9 @@ class Cutter {
       const Point middle = 0.5 * ((*cut)[0] + (*cut)[1]);
       switch (reach_of(*cut)) {
         case Reach::outside: continue;
-        case Reach::rim:
-          ++n_at_rims;
-          if (at_rims.size() < k_max_places) at_rims.push_back({middle, "the circle of the disc meets patch \"" + name(t) + "\""});
+        case Reach::border:
+          ++n_at_borders;
+          if (at_borders.size() < k_max_locations) at_borders.push_back({middle, "the circle of the disc meets patch \"" + name(t) + "\""});
           [[fallthrough]];
         case Reach::inside: break;
       }
@@ -62,8 +62,8 @@ class Cutter {
       is_layered = is_layered && has_layer_[mesh_.triangle_patch[t]] != 0;
     }
     if (!has_any || !is_layered) return false;
-    if (n_at_rims > 0)
-      fail(std::to_string(n_at_rims) + " wall triangles cross the outer or inner circle of the disc", std::move(at_rims), n_at_rims,
+    if (n_at_borders > 0)
+      fail(std::to_string(n_at_borders) + " wall triangles cross the outer or inner circle of the disc", std::move(at_borders), n_at_borders,
            "each circle of the disc must be completely in the fluid or completely inside the body: choose radius and inner_radius so that the circles do not "
            "cross the wall");
     return true;
@@ -156,11 +156,11 @@ class Cutter {
     };
     std::map<std::array<VertexId, 2>, Sides> edges;
     std::map<VertexId, int> degree;
-    std::vector<ErrorPlace> places;
-    std::int64_t n_places = 0;
+    std::vector<ErrorLocation> locations;
+    std::int64_t n_locations = 0;
     const auto complain = [&](const Point& p, const char* what) {
-      ++n_places;
-      if (places.size() < k_max_places) places.push_back({p, what});
+      ++n_locations;
+      if (locations.size() < k_max_locations) locations.push_back({p, what});
     };
     for (const TriangleId t : mesh_.triangles.ids()) {
       if (!is_active_[t]) continue;
@@ -192,29 +192,29 @@ class Cutter {
       if (point.n_uses != 2) complain(mesh_.points[point.vertex], "the circle of the disc is too close to the wall");
     for (const auto& [v, n] : degree)
       if (n != 2) complain(mesh_.points[v], n == 0 ? "the wall touches the plane of the disc" : "outlines of the disc meet");
-    if (n_places > 0)
-      fail("the wall touches the plane of the disc at " + std::to_string(n_places) + " locations without crossing it", std::move(places), n_places,
+    if (n_locations > 0)
+      fail("the wall touches the plane of the disc at " + std::to_string(n_locations) + " locations without crossing it", std::move(locations), n_locations,
            "move the disc along its axis, by some edge lengths of the wall");
-    find_rims(cut);
+    find_borders(cut);
     return cut;
   }
 
  private:
-  enum class Reach { outside, inside, rim };
+  enum class Reach { outside, inside, border };
 
-  [[noreturn]] void fail(std::string problem, std::vector<ErrorPlace> places, std::int64_t n_places, std::string hint) const {
+  [[noreturn]] void fail(std::string problem, std::vector<ErrorLocation> locations, std::int64_t n_locations, std::string hint) const {
     throw Error({.code = ErrorCode::self_intersection,
                  .attempted = "making actuator disc \"" + disc_.name + "\"",
                  .problem = std::move(problem),
-                 .places = std::move(places),
-                 .n_places = n_places,
+                 .locations = std::move(locations),
+                 .n_locations = n_locations,
                  .hint = std::move(hint)});
   }
   const std::string& name(TriangleId t) const { return mesh_.patches[mesh_.triangle_patch[t]].name; }
   bool crosses(VertexId a, VertexId b) const { return (height_[a] < 0.0 && height_[b] > 0.0) || (height_[a] > 0.0 && height_[b] < 0.0); }
   /// Returns the fraction of the way from a to b at which the plane cuts.
   double share_of(VertexId a, VertexId b) const { return height_[a] / (height_[a] - height_[b]); }
-  Point cut_place(VertexId a, VertexId b) const {
+  Point cut_location(VertexId a, VertexId b) const {
     if (b < a) std::swap(a, b);
     return plane_.onto(mesh_.points[a] + share_of(a, b) * (mesh_.points[b] - mesh_.points[a]));
   }
@@ -226,7 +226,7 @@ class Cutter {
     std::size_t n = 0;
     for (std::size_t k = 0; k < 3; ++k) {
       if (height_[v[k]] == 0.0) ends[n++] = plane_.onto(mesh_.points[v[k]]);
-      if (crosses(v[k], v[(k + 1) % 3])) ends[n++] = cut_place(v[k], v[(k + 1) % 3]);
+      if (crosses(v[k], v[(k + 1) % 3])) ends[n++] = cut_location(v[k], v[(k + 1) % 3]);
     }
     if (n < 2) return std::nullopt;
     return std::array{ends[0], ends[1]};
@@ -239,7 +239,7 @@ class Cutter {
     const double share = length2 > 0.0 ? std::clamp(dot(plane_.center() - cut[0], along) / length2, 0.0, 1.0) : 0.0;
     const double nearest = norm(cut[0] + share * along - plane_.center());
     if (nearest >= plane_.outer() || std::max(a, b) <= plane_.inner()) return Reach::outside;
-    return std::max(a, b) < plane_.outer() && (plane_.inner() == 0.0 || nearest > plane_.inner()) ? Reach::inside : Reach::rim;
+    return std::max(a, b) < plane_.outer() && (plane_.inner() == 0.0 || nearest > plane_.inner()) ? Reach::inside : Reach::border;
   }
 
   VertexId cut_point(VertexId a, VertexId b) {
@@ -250,9 +250,9 @@ class Cutter {
       return found->second.vertex;
     }
     if (taken_by_[a] != 0 && taken_by_[a] == taken_by_[b])
-      fail("the outline of the disc meets the outline of another disc", {{cut_place(a, b), "an edge of both outlines"}}, 1,
+      fail("the outline of the disc meets the outline of another disc", {{cut_location(a, b), "an edge of both outlines"}}, 1,
            "move one of the discs: discs must not meet");
-    found->second = {mesh_.points.push_back(cut_place(a, b)), 1};
+    found->second = {mesh_.points.push_back(cut_location(a, b)), 1};
     height_.push_back(0.0);
     return found->second.vertex;
   }
@@ -290,7 +290,7 @@ class Cutter {
     for (const HalfedgeId h : topology.outgoing(v)) before.push_back(area_of(triangle_of(h)));
     const Point old = mesh_.points[v];
     const double old_height = height_[v];
-    mesh_.points[v] = cut_place(v, topology.to(best));
+    mesh_.points[v] = cut_location(v, topology.to(best));
     height_[v] = 0.0;
     std::size_t i = 0;
     for (const HalfedgeId h : topology.outgoing(v)) {
@@ -307,7 +307,7 @@ class Cutter {
 
   /// Finds which boundary circles of the disc lie in the fluid. There the winding number of all sections of the boundary with the plane is one (the outermost
   /// part contributes +1, bodies -1).
-  void find_rims(CutDisc& cut) const {
+  void find_borders(CutDisc& cut) const {
     const Vec3 n = plane_.normal();
     const Vec3 m{std::abs(n.x), std::abs(n.y), std::abs(n.z)};
     const Vec3 u = normalized(cross(n, m.x <= m.y && m.x <= m.z ? Vec3{1, 0, 0} : m.y <= m.z ? Vec3{0, 1, 0} : Vec3{0, 0, 1}));
@@ -322,7 +322,9 @@ class Cutter {
         for (std::size_t k = 0; k < 3; ++k) {
           const VertexId a = v[k], b = v[(k + 1) % 3];
           if ((height_[a] < 0.0) == (height_[b] < 0.0)) continue;
-          (height_[a] < 0.0 ? in : out) = height_[a] == 0.0 ? plane_.onto(mesh_.points[a]) : height_[b] == 0.0 ? plane_.onto(mesh_.points[b]) : cut_place(a, b);
+          (height_[a] < 0.0 ? in : out) = height_[a] == 0.0   ? plane_.onto(mesh_.points[a])
+                                          : height_[b] == 0.0 ? plane_.onto(mesh_.points[b])
+                                                              : cut_location(a, b);
           ++n_ends;
         }
         if (n_ends != 2) continue;
@@ -331,8 +333,8 @@ class Cutter {
       }
       return turn > std::numbers::pi;
     };
-    cut.has_outer_rim = is_fluid(plane_.outer());
-    cut.has_inner_rim = plane_.inner() > 0.0 && is_fluid(plane_.inner());
+    cut.has_outer_border = is_fluid(plane_.outer());
+    cut.has_inner_border = plane_.inner() > 0.0 && is_fluid(plane_.inner());
   }
 
   TriMesh& mesh_;

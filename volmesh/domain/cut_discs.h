@@ -17,8 +17,8 @@ struct CutDisc {
   std::size_t disc = 0;  ///< number of the disc
   /// Edges of the boundary, oriented as in their upstream triangles; they form closed polygons in the plane of the disc.
   std::vector<std::array<VertexId, 2>> outline;
-  bool has_outer_rim = false;  ///< boundary circles of the disc that lie in the fluid (outer, inner)
-  bool has_inner_rim = false;
+  bool has_outer_border = false;  ///< boundary circles of the disc that lie in the fluid (outer, inner)
+  bool has_inner_border = false;
 };
 
 struct DiscCuts {

@@ -13,9 +13,9 @@
 #include "geom/math/measures.h"
 #include "geom/mesh/topology.h"
 #include "volmesh/domain/flat_patch.h"
-#include "volmesh/domain/open_rims.h"
+#include "volmesh/domain/open_borders.h"
 #include "volmesh/domain/wall_reach.h"
-#include "volmesh/envelope/constrain_rims.h"
+#include "volmesh/envelope/constrain_borders.h"
 
 namespace sterna::volmesh {
 namespace {
@@ -32,14 +32,14 @@ void require_closed(const TriMesh& surface, const Topology& topology) {
   ErrorInfo info =
       error(ErrorCode::open_surface, "the fluid's boundary is open: " + std::to_string(topology.n_boundary_halfedges()) + " edges have one triangle",
             "close the holes; a half model must end in one plane x, y or z = constant");
-  info.n_places = static_cast<std::int64_t>(topology.n_boundary_halfedges());
+  info.n_locations = static_cast<std::int64_t>(topology.n_boundary_halfedges());
   for (std::size_t i = 0; i < topology.n_halfedges(); ++i) {
     const HalfedgeId h(i);
     if (!topology.is_boundary(h)) continue;
     const std::uint32_t next = static_cast<std::uint32_t>(info.geometry.points.size());
     info.geometry.points.insert(info.geometry.points.end(), {surface.points[topology.from(h)], surface.points[topology.to(h)]});
     info.geometry.edges.push_back({next, next + 1});
-    if (info.places.size() < k_max_places) info.places.push_back({surface.points[topology.from(h)], "an open edge starts here"});
+    if (info.locations.size() < k_max_locations) info.locations.push_back({surface.points[topology.from(h)], "an open edge starts here"});
   }
   throw Error(std::move(info));
 }
@@ -81,7 +81,7 @@ Part part_of(const TriMesh& surface, const Chosen& is_chosen) {
 
 /// Result of the walk around a layer boundary vertex, from its outgoing border half-edge to the incoming one: the patches beyond the border, and the half-edges
 /// from the vertex at which the patch changes.
-struct RimFan {
+struct BorderWalk {
   std::vector<PatchId> patches;     ///< patches of the surface, in the order of the walk
   std::vector<HalfedgeId> changes;  ///< half-edges of the surface that start at the vertex; one less than patches
 };
@@ -96,10 +96,10 @@ class DomainSplitter {
     wall_ = part_of(surface_, [&](TriangleId t) { return is_layered(t); });
     outer_ = part_of(surface_, [&](TriangleId t) { return !is_layered(t); });
     find_parts();
-    find_rim();
+    find_border();
     keep_periodic();
-    if (!domain_.rim.empty()) hold_rim();
-    if (!domain_.rim.empty()) link();
+    if (!domain_.border.empty()) hold_border();
+    if (!domain_.border.empty()) link();
     domain_.wall = std::move(wall_.mesh);
     domain_.outer = std::move(outer_.mesh);
     domain_.wall2surface = std::move(wall_.part2surface);
@@ -151,7 +151,7 @@ class DomainSplitter {
       if (outer_.surface2part[v].is_valid()) domain_.links.line[outer_.surface2part[v]] = wall_.surface2part[v];
     domain_.links.surface.assign(outer_.mesh.n_triangles(), -1);
     for (const TriangleId t : outer_.mesh.triangles.ids())
-      for (const EndPatch& end : domain_.ends)
+      for (const AdjacentPatch& end : domain_.adjacent)
         if (outer_.mesh.triangle_patch[t] == end.patch) domain_.links.surface[t] = end.surface;
   }
 
@@ -160,20 +160,20 @@ class DomainSplitter {
     ErrorInfo info = error(ErrorCode::bad_argument, "",
                            "the same walls must end at the same locations of both periodic sides: give the patches there the same kind and layers");
     for (const PeriodicPatches& sides : periodic_) {
-      PeriodicEnds ends{outer_.patch2part[sides.first], outer_.patch2part[sides.second], sides.translation, {}};
+      PeriodicPair ends{outer_.patch2part[sides.first], outer_.patch2part[sides.second], sides.translation, {}};
       for (const auto& [a, b] : sides.vertices) {
         ends.vertices.push_back({outer_.surface2part[a], outer_.surface2part[b]});
         const VertexId on_first = wall_.surface2part[a], on_second = wall_.surface2part[b];
         if (on_first.is_valid() && on_second.is_valid()) domain_.partners.push_back({on_first, on_second});
         if (on_first.is_valid() == on_second.is_valid()) continue;
-        ++info.n_places;
-        if (info.places.size() < k_max_places)
-          info.places.push_back({surface_.points[on_first.is_valid() ? a : b], "a wall with layers is here, but not at the periodic image"});
+        ++info.n_locations;
+        if (info.locations.size() < k_max_locations)
+          info.locations.push_back({surface_.points[on_first.is_valid() ? a : b], "a wall with layers is here, but not at the periodic image"});
       }
       domain_.periodic.push_back(std::move(ends));
     }
-    if (info.n_places == 0) return;
-    info.problem = "at " + std::to_string(info.n_places) + " vertices a wall with layers ends on one periodic side but not on the other";
+    if (info.n_locations == 0) return;
+    info.problem = "at " + std::to_string(info.n_locations) + " vertices a wall with layers ends on one periodic side but not on the other";
     throw Error(std::move(info));
   }
 
@@ -190,16 +190,16 @@ class DomainSplitter {
     }
   }
 
-  void find_rim() {
-    std::vector<std::uint8_t> n_fans(surface_.n_vertices(), 0);
+  void find_border() {
+    std::vector<std::uint8_t> n_walks(surface_.n_vertices(), 0);
     std::vector<VertexId> pinched;
     for (const TriangleId t : wall_.mesh.triangles.ids()) {
       for (int k = 0; k < 3; ++k) {
         const HalfedgeId h = halfedge(wall_.part2surface[t], k);
         const TriangleId beyond = triangle_of(topology_.twin(h));
         if (is_layered(beyond)) continue;
-        domain_.rim.push_back({halfedge(t, k), outer_.patch2part[surface_.triangle_patch[beyond]]});
-        if (n_fans[topology_.from(h).index()]++ > 0) pinched.push_back(topology_.from(h));
+        domain_.border.push_back({halfedge(t, k), outer_.patch2part[surface_.triangle_patch[beyond]]});
+        if (n_walks[topology_.from(h).index()]++ > 0) pinched.push_back(topology_.from(h));
       }
     }
     if (pinched.empty()) return;
@@ -207,35 +207,36 @@ class DomainSplitter {
         error(ErrorCode::non_manifold_surface,
               "at " + std::to_string(pinched.size()) + " points walls with layers meet only in that point, with patches without layers between them",
               "give layers to one of the patches around this location, or remove the layers of the walls there (patches = { name = { layers = 0 } })");
-    for (std::size_t i = 0; i < std::min(pinched.size(), k_max_places); ++i)
-      info.places.push_back({surface_.points[pinched[i]], "vertex " + std::to_string(pinched[i].value())});
+    for (std::size_t i = 0; i < std::min(pinched.size(), k_max_locations); ++i)
+      info.locations.push_back({surface_.points[pinched[i]], "vertex " + std::to_string(pinched[i].value())});
     throw Error(std::move(info));
   }
 
-  RimFan fan_beyond(HalfedgeId rim) const {
-    RimFan fan;
+  BorderWalk walk_beyond(HalfedgeId border) const {
+    BorderWalk walk;
     // The twin ends at the vertex. Its successor starts at the vertex, one triangle farther.
-    for (HalfedgeId h = topology_.twin(rim);; h = topology_.twin(next(h))) {
+    for (HalfedgeId h = topology_.twin(border);; h = topology_.twin(next(h))) {
       const TriangleId t = triangle_of(h);
-      if (is_layered(t)) return fan;
+      if (is_layered(t)) return walk;
       const PatchId patch = surface_.triangle_patch[t];
-      if (!fan.patches.empty() && patch != fan.patches.back()) fan.changes.push_back(topology_.twin(h));
-      if (fan.patches.empty() || patch != fan.patches.back()) fan.patches.push_back(patch);
+      if (!walk.patches.empty() && patch != walk.patches.back()) walk.changes.push_back(topology_.twin(h));
+      if (walk.patches.empty() || patch != walk.patches.back()) walk.patches.push_back(patch);
     }
   }
 
-  void hold_rim() {
+  void hold_border() {
     domain_.constraints.vertex.resize(wall_.mesh.n_vertices());
-    for (const RimEdge& edge : domain_.rim)
-      if (std::ranges::none_of(domain_.ends, [&](const EndPatch& end) { return end.patch == edge.patch; })) domain_.ends.push_back({.patch = edge.patch});
-    std::sort(domain_.ends.begin(), domain_.ends.end(), [](const EndPatch& a, const EndPatch& b) { return a.patch < b.patch; });
+    for (const LayerBorderEdge& edge : domain_.border)
+      if (std::ranges::none_of(domain_.adjacent, [&](const AdjacentPatch& end) { return end.patch == edge.patch; }))
+        domain_.adjacent.push_back({.patch = edge.patch});
+    std::sort(domain_.adjacent.begin(), domain_.adjacent.end(), [](const AdjacentPatch& a, const AdjacentPatch& b) { return a.patch < b.patch; });
     make_surfaces();
 
-    std::vector<RimFan> fans;
+    std::vector<BorderWalk> walks;
     std::vector<VertexId> vertices;  // vertices of the surface
-    for (const RimEdge& edge : domain_.rim) {
+    for (const LayerBorderEdge& edge : domain_.border) {
       const HalfedgeId h = surface_halfedge(edge.halfedge);
-      fans.push_back(fan_beyond(h));
+      walks.push_back(walk_beyond(h));
       vertices.push_back(topology_.from(h));
     }
     Column<VertexId, Vec3> normal(wall_.mesh.n_vertices());
@@ -243,37 +244,37 @@ class DomainSplitter {
       const auto [a, b, c] = corners(wall_.mesh, t);
       for (const VertexId v : wall_.mesh.triangles[t]) normal[v] += area_vector(a, b, c);
     }
-    const Column<VertexId, std::uint8_t> is_convex = convex_rim();
-    for (std::size_t i = 0; i < fans.size(); ++i) {
+    const Column<VertexId, std::uint8_t> is_convex = convex_border();
+    for (std::size_t i = 0; i < walks.size(); ++i) {
       const VertexId v = wall_.surface2part[vertices[i]];
       VertexConstraint& constraint = domain_.constraints.vertex[v];
-      constraint = constraint_of(fans[i], v, normal[v]);
+      constraint = constraint_of(walks[i], v, normal[v]);
       if (is_convex[v]) constraint.freedom = Freedom::fixed;
     }
     share_freedoms();
-    std::size_t n_fixed_rim = 0;
-    Point fixed_rim;
+    std::size_t n_fixed_border = 0;
+    Point fixed_border;
     for (const VertexId on_surface : vertices) {
       const VertexId v = wall_.surface2part[on_surface];
       if (domain_.constraints.vertex[v].freedom != Freedom::fixed) continue;
-      ++n_fixed_rim;
-      fixed_rim = wall_.mesh.points[v];
+      ++n_fixed_border;
+      fixed_border = wall_.mesh.points[v];
     }
-    if (n_fixed_rim > 0)
-      context_.warn("no layer at " + std::to_string(n_fixed_rim) +
+    if (n_fixed_border > 0)
+      context_.warn("no layer at " + std::to_string(n_fixed_border) +
                     " vertices of the layer boundary: more than two patches without layers meet the wall there, or the layer would leave the adjacent patch "
                     "(the wall ends at an outer edge, as at a slip wall, or at a patch with a rule layers = 0); one vertex is at " +
-                    format_point(fixed_rim));
-    for (std::size_t i = 0; i < fans.size(); ++i) add_chain(fans[i], vertices[i]);
+                    format_point(fixed_border));
+    for (std::size_t i = 0; i < walks.size(); ++i) add_chain(walks[i], vertices[i]);
     mark_near();
   }
 
   /// Finds the layer boundary vertices at which the wall turns away from the patch beyond, so that there is fluid on both sides of the side face of the layer.
-  Column<VertexId, std::uint8_t> convex_rim() const {
+  Column<VertexId, std::uint8_t> convex_border() const {
     Column<VertexId, std::uint8_t> is_convex(wall_.mesh.n_vertices(), 0);
-    for (const RimEdge& edge : domain_.rim) {
+    for (const LayerBorderEdge& edge : domain_.border) {
       const HalfedgeId h = surface_halfedge(edge.halfedge);
-      if (!is_open_rim(surface_, topology_, h)) continue;
+      if (!is_open_border(surface_, topology_, h)) continue;
       is_convex[wall_.surface2part[topology_.from(h)]] = is_convex[wall_.surface2part[topology_.to(h)]] = 1;
     }
     return is_convex;
@@ -281,13 +282,13 @@ class DomainSplitter {
 
   HalfedgeId surface_halfedge(HalfedgeId of_wall) const { return halfedge(wall_.part2surface[triangle_of(of_wall)], corner_of(of_wall)); }
 
-  const EndPatch& end_of(PatchId surface_patch) const {
+  const AdjacentPatch& end_of(PatchId surface_patch) const {
     const PatchId patch = outer_.patch2part[surface_patch];
-    return *std::ranges::find_if(domain_.ends, [&](const EndPatch& end) { return end.patch == patch; });
+    return *std::ranges::find_if(domain_.adjacent, [&](const AdjacentPatch& end) { return end.patch == patch; });
   }
   bool is_end(PatchId surface_patch) const {
     const PatchId patch = outer_.patch2part[surface_patch];
-    return std::ranges::any_of(domain_.ends, [&](const EndPatch& end) { return end.patch == patch; });
+    return std::ranges::any_of(domain_.adjacent, [&](const AdjacentPatch& end) { return end.patch == patch; });
   }
 
   void make_surfaces() {
@@ -295,8 +296,8 @@ class DomainSplitter {
     for (const Point& p : wall_.mesh.points) walls.add(p);
     const Point middle = walls.center();
     const double length = walls.longest_side();
-    const auto tolerance_at = [&](const Point& p) { return k_rim_tolerance * (length + distance(p, middle)); };
-    for (EndPatch& end : domain_.ends) {
+    const auto tolerance_at = [&](const Point& p) { return k_border_tolerance * (length + distance(p, middle)); };
+    for (AdjacentPatch& end : domain_.adjacent) {
       const PatchVertices vertices(outer_.mesh, end.patch);
       const FlatFit flat = vertices.fit(tolerance_at);
       end.surface = static_cast<std::int32_t>(domain_.constraints.surfaces.size());
@@ -311,7 +312,7 @@ class DomainSplitter {
         ErrorInfo info = error(ErrorCode::bad_argument, "the symmetry patch \"" + patch.name + "\" is not flat: a vertex is " + text,
                                "a symmetry patch must lie in one plane; make it a slip wall (patches = { [\"" + patch.name +
                                    "\"] = { kind = \"slip\" } }) if it is curved on purpose");
-        info.places.push_back({outer_.mesh.points[flat.farthest], "farthest vertex of " + patch.name});
+        info.locations.push_back({outer_.mesh.points[flat.farthest], "farthest vertex of " + patch.name});
         throw Error(std::move(info));
       } else {
         TriMesh curved = part_of(outer_.mesh, [&](TriangleId t) { return outer_.mesh.triangle_patch[t] == end.patch; }).mesh;
@@ -329,23 +330,23 @@ class DomainSplitter {
     }
   }
 
-  VertexConstraint constraint_of(const RimFan& fan, VertexId v, const Vec3& normal) const {
+  VertexConstraint constraint_of(const BorderWalk& walk, VertexId v, const Vec3& normal) const {
     VertexConstraint constraint;
-    const EndPatch& first = end_of(fan.patches.front());
+    const AdjacentPatch& first = end_of(walk.patches.front());
     const ConstraintSurface& surface = *domain_.constraints.surfaces[static_cast<std::size_t>(first.surface)];
     const bool is_plane = dynamic_cast<const ConstraintPlane*>(&surface) != nullptr;
     const Point& p = wall_.mesh.points[v];
     constraint.on[0] = first.surface;
     constraint.axis = surface.normal(p);
     constraint.freedom = is_plane ? Freedom::plane : Freedom::surface;
-    if (fan.patches.size() == 1) return constraint;
+    if (walk.patches.size() == 1) return constraint;
     constraint.freedom = Freedom::fixed;
-    if (fan.patches.size() > 2) return constraint;
-    const EndPatch& second = end_of(fan.patches.back());
+    if (walk.patches.size() > 2) return constraint;
+    const AdjacentPatch& second = end_of(walk.patches.back());
     constraint.on[1] = second.surface;
     if (constraint.on[0] > constraint.on[1]) std::swap(constraint.on[0], constraint.on[1]);
     const ConstraintSurface& other = *domain_.constraints.surfaces[static_cast<std::size_t>(second.surface)];
-    const HalfedgeId h = fan.changes.front();
+    const HalfedgeId h = walk.changes.front();
     Vec3 line = normalized(outer_.mesh.points[outer_.surface2part[topology_.to(h)]] - p);
     const Vec3 meet = cross(surface.normal(p), other.normal(p));
     if (is_plane && dynamic_cast<const ConstraintPlane*>(&other) && norm(meet) > k_chain_sine)
@@ -365,10 +366,10 @@ class DomainSplitter {
     return found;
   }
 
-  void add_chain(const RimFan& fan, VertexId start) {
+  void add_chain(const BorderWalk& walk, VertexId start) {
     const VertexId on_wall = wall_.surface2part[start];
     if (domain_.constraints.vertex[on_wall].freedom != Freedom::line) return;
-    HalfedgeId h = fan.changes.front();
+    HalfedgeId h = walk.changes.front();
     const PatchId left = surface_.triangle_patch[triangle_of(h)], right = surface_.triangle_patch[triangle_of(topology_.twin(h))];
     EndChain chain{{outer_.surface2part[start]}, false, outer_.patch2part[left], outer_.patch2part[right]};
     for (;;) {
@@ -394,7 +395,7 @@ class DomainSplitter {
   void mark_near() {
     domain_.constraints.near.assign(wall_.mesh.n_vertices(), 0);
     const WallReach reach(wall_.mesh);
-    for (const EndPatch& end : domain_.ends) {
+    for (const AdjacentPatch& end : domain_.adjacent) {
       if (outer_.mesh.patches[end.patch].kind == PatchKind::symmetry) {
         for (std::uint64_t& mask : domain_.constraints.near) mask |= end.surface < k_max_masked ? std::uint64_t{1} << end.surface : 0;
         continue;

@@ -12,7 +12,7 @@
 #include "geom/base/schema.h"
 #include "geom/mesh/tri_mesh.h"
 #include "volmesh/domain/periodic_sides.h"
-#include "volmesh/domain/split_needles.h"
+#include "volmesh/domain/split_slivers.h"
 #include "volmesh/envelope/collide.h"
 #include "volmesh/envelope/constraint.h"
 #include "volmesh/envelope/doubled_sheets.h"
@@ -20,15 +20,15 @@
 
 namespace sterna::volmesh {
 
-/// An adjacent patch: a patch without layers on which layers end. It is re-meshed around the layer's footprint (rims/close_ends.h).
-struct EndPatch {
+/// An adjacent patch: a patch without layers on which layers end. It is re-meshed around the layer's footprint (adjacent/close_boundary.h).
+struct AdjacentPatch {
   PatchId patch;                  ///< patch of Domain::outer
   std::int32_t surface = -1;      ///< number of its surface in Domain::constraints.surfaces
   double max_edge = k_automatic;  ///< m, longest edge of its triangles
 };
 
 /// An edge of the wall's border, and the patch beyond the edge.
-struct RimEdge {
+struct LayerBorderEdge {
   HalfedgeId halfedge;  ///< half-edge of Domain::wall
   PatchId patch;        ///< patch of Domain::outer
 };
@@ -41,20 +41,20 @@ struct EndChain {
 };
 
 /// Two patches of Domain::outer; the second is a translated copy of the first.
-struct PeriodicEnds {
+struct PeriodicPair {
   PatchId first, second;
   Vec3 translation;                               ///< m
   std::vector<std::array<VertexId, 2>> vertices;  ///< pairs of partner vertices of Domain::outer
 };
 
 /// An actuator disc that ends on walls with layers (disc cut). The wall itself is not cut there; its columns are separated once the layer exists
-/// (rims/slits.h).
-struct DiscSlit {
+/// (adjacent/wall_discs.h).
+struct WallDisc {
   std::size_t disc = 0;                            ///< number of the disc in MeshCase::discs
   PatchId patch, back;                             ///< patches of Domain::outer: the upstream side and the downstream side
   std::vector<std::array<HalfedgeId, 2>> outline;  ///< edges of Domain::wall in the plane of the disc: the upstream half-edge, and its downstream twin
-  bool has_outer_rim = false;                      ///< boundary circles of the disc that lie in the fluid
-  bool has_inner_rim = false;
+  bool has_outer_border = false;                   ///< boundary circles of the disc that lie in the fluid
+  bool has_inner_border = false;
   std::vector<TriangleId> behind;  ///< triangles of the wall that contain outline vertices and lie downstream of the disc, ascending
   std::int32_t surface = -1;       ///< number of the surface of the upstream side in Domain::constraints.surfaces; the downstream side follows
 };
@@ -64,22 +64,22 @@ struct Domain {
   Constraints constraints;  ///< constraints of the wall's boundary
   TriMesh outer;  ///< all other triangles, in the order of the surface, then one side of each actuator disc; its vertices are separate from those of the wall,
                   ///< also on the layer boundary
-  OuterLinks links;            ///< empty if there are no layer boundaries
-  std::vector<EndPatch> ends;  ///< sorted by ascending patch
-  std::vector<RimEdge> rim;    ///< sorted by ascending half-edge
+  OuterLinks links;                     ///< empty if there are no layer boundaries
+  std::vector<AdjacentPatch> adjacent;  ///< sorted by ascending patch
+  std::vector<LayerBorderEdge> border;  ///< sorted by ascending half-edge
   std::vector<EndChain> chains;
-  std::vector<PeriodicEnds> periodic;
+  std::vector<PeriodicPair> periodic;
   std::vector<std::array<VertexId, 2>> partners;  ///< pairs of wall vertices where the wall ends on periodic sides; partners get the same growth
   Column<TriangleId, TriangleId> wall2surface;
   /// Weights in wall2surface; empty if sliver splitting has not changed the wall, and also if discs have cut it.
   Column<TriangleId, CornerWeights> wall_weights;
-  NeedleReport needles;
+  SliverReport slivers;
   OpenedRidges ridges;   ///< opened ridges of the wall
   DoubledSheets sheets;  ///< doubled sheets of the wall; a wall never has both these and opened ridges
-  std::vector<DiscSlit> slits;
+  std::vector<WallDisc> wall_discs;
   std::vector<VertexId>
-      slit_vertices;  ///< vertices of all outlines on the wall, ascending; vertex i also has growth line n_vertices() + i, downstream of its disc
-  std::vector<std::size_t> vertex2slit;  ///< number of the disc cut of each of these vertices
+      wall_disc_vertices;  ///< vertices of all outlines on the wall, ascending; vertex i also has growth line n_vertices() + i, downstream of its disc
+  std::vector<std::size_t> vertex2wall_disc;  ///< number of the disc cut of each of these vertices
   /// Fluid that is not connected to the main fluid. It is the inside of a closed part whose normals point inwards (except the part that encloses the main
   /// fluid).
   struct Cavity {
@@ -92,7 +92,7 @@ struct Domain {
   /// Returns true if wall vertices have several growth lines. The layer then does not yet correspond to the given wall.
   bool is_opened() const { return !ridges.is_empty() || !sheets.is_empty(); }
   /// Returns true if the outer boundary is re-meshed around the layer.
-  bool has_rims() const { return !rim.empty() || !slits.empty(); }
+  bool has_borders() const { return !border.empty() || !wall_discs.empty(); }
 };
 
 /// Splits a closed surface. Vertices of flat adjacent patches are moved into their plane, by at most 1e-6 of the sum of body length and distance to the wall's

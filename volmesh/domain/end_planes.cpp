@@ -1,4 +1,4 @@
-// 1. rim_edges: assigns each edge with only one triangle to a plane.
+// 1. border_edges: assigns each edge with only one triangle to a plane.
 // 2. join_on_lines: where two planes meet, adds the part of their line that bounds the fluid, between open-boundary vertices.
 // 3. triangulate: fills the part of each plane that is inside an odd number of open-boundary loops, without new vertices.
 // 4. Edges that are still open mark the location of an error.
@@ -29,9 +29,9 @@ std::string name_of(const EndPlane& end) {
 }
 
 /// Returns the open-boundary edges of each plane. An edge that lies in two planes belongs to the plane from which its triangle rises.
-std::vector<std::vector<Edge>> rim_edges(const TriMesh& mesh, std::span<const EndPlane> ends, const RunContext& context) {
+std::vector<std::vector<Edge>> border_edges(const TriMesh& mesh, std::span<const EndPlane> ends, const RunContext& context) {
   const Topology topology(mesh, context);
-  std::vector<std::vector<Edge>> rims(ends.size());
+  std::vector<std::vector<Edge>> borders(ends.size());
   ErrorInfo info{.code = ErrorCode::open_surface,
                  .attempted = k_planes_attempt,
                  .hint = "close the surface away from these planes; the outer shape must reach the planes"};
@@ -42,23 +42,23 @@ std::vector<std::vector<Edge>> rim_edges(const TriMesh& mesh, std::span<const En
     std::size_t k = 0;
     while (k < ends.size() && !(is_in(mesh.points[from], ends[k]) && is_in(mesh.points[to], ends[k]) && !is_in(mesh.points[opposite], ends[k]))) ++k;
     if (k < ends.size()) {
-      rims[k].push_back({from, to});
+      borders[k].push_back({from, to});
       continue;
     }
-    ++info.n_places;
-    if (info.places.size() < k_max_places) info.places.push_back({0.5 * (mesh.points[from] + mesh.points[to]), "an edge with one triangle"});
+    ++info.n_locations;
+    if (info.locations.size() < k_max_locations) info.locations.push_back({0.5 * (mesh.points[from] + mesh.points[to]), "an edge with one triangle"});
   }
-  if (info.n_places == 0) return rims;
-  info.problem = std::to_string(info.n_places) + " edges with one triangle lie in none of the " + std::to_string(ends.size()) + " planes";
+  if (info.n_locations == 0) return borders;
+  info.problem = std::to_string(info.n_locations) + " edges with one triangle lie in none of the " + std::to_string(ends.size()) + " planes";
   throw Error(std::move(info));
 }
 
 /// Returns the mean length of the open-boundary edges at a vertex.
-double length_at(const TriMesh& mesh, const std::vector<std::vector<Edge>>& rims, VertexId v) {
+double length_at(const TriMesh& mesh, const std::vector<std::vector<Edge>>& borders, VertexId v) {
   double sum = 0.0;
   int n = 0;
-  for (const auto& rim : rims)
-    for (const auto& [a, b] : rim) {
+  for (const auto& border : borders)
+    for (const auto& [a, b] : border) {
       if (a != v && b != v) continue;
       sum += distance(mesh.points[a], mesh.points[b]);
       ++n;
@@ -87,10 +87,10 @@ std::vector<double> graded(double first, double last, double most) {
 
 /// Divides the line of two planes into edges, and adds them to the open boundaries of both planes.
 void join_on_line(TriMesh& mesh, std::span<const EndPlane> ends, std::span<const double> edges, std::size_t k, std::size_t l,
-                  std::vector<std::vector<Edge>>& rims, std::vector<std::vector<Edge>>& lines) {
+                  std::vector<std::vector<Edge>>& borders, std::vector<std::vector<Edge>>& lines) {
   const std::size_t along = 3 - ends[k].axis - ends[l].axis;
   std::vector<VertexId> on_line;
-  for (const Edge& edge : rims[k])
+  for (const Edge& edge : borders[k])
     for (const VertexId v : edge)
       if (is_in(mesh.points[v], ends[l])) on_line.push_back(v);
   std::sort(on_line.begin(), on_line.end(),
@@ -104,7 +104,7 @@ void join_on_line(TriMesh& mesh, std::span<const EndPlane> ends, std::span<const
                               " vertices; an even number is needed, because each part of the line in the fluid begins and ends at a vertex",
                    .hint = "open boundaries may cross this line but not touch it, and no third plane may cut the line"};
     for (const VertexId v : on_line)
-      if (info.places.size() < k_max_places) info.places.push_back({mesh.points[v], "an open boundary meets the line"});
+      if (info.locations.size() < k_max_locations) info.locations.push_back({mesh.points[v], "an open boundary meets the line"});
     throw Error(std::move(info));
   }
   for (std::size_t i = 0; i < on_line.size(); i += 2) {
@@ -115,7 +115,7 @@ void join_on_line(TriMesh& mesh, std::span<const EndPlane> ends, std::span<const
     double most = 1.0;
     for (const std::size_t plane : {k, l})
       if (!is_automatic(edges[plane])) most = std::min(most, edges[plane] / length);
-    for (const double t : graded(length_at(mesh, rims, a) / length, length_at(mesh, rims, b) / length, most)) {
+    for (const double t : graded(length_at(mesh, borders, a) / length, length_at(mesh, borders, b) / length, most)) {
       Point p = from;
       p[along] = from[along] + t * (to[along] - from[along]);
       chain.push_back(mesh.points.push_back(p));
@@ -128,33 +128,33 @@ void join_on_line(TriMesh& mesh, std::span<const EndPlane> ends, std::span<const
   }
 }
 
-void triangulate(TriMesh& mesh, const EndPlane& end, const std::vector<Edge>& rim, const std::vector<Edge>& lines, const Patch& patch,
+void triangulate(TriMesh& mesh, const EndPlane& end, const std::vector<Edge>& border, const std::vector<Edge>& lines, const Patch& patch,
                  const RunContext& context) {
   const std::size_t u = (end.axis + 1) % 3, v = (end.axis + 2) % 3;
   std::vector<VertexId> vertices;
-  for (const auto* edges : {&rim, &lines})
+  for (const auto* edges : {&border, &lines})
     for (const Edge& edge : *edges) vertices.insert(vertices.end(), edge.begin(), edge.end());
   std::sort(vertices.begin(), vertices.end());
   vertices.erase(std::unique(vertices.begin(), vertices.end()), vertices.end());
   const auto number = [&](VertexId p) { return static_cast<std::uint32_t>(std::lower_bound(vertices.begin(), vertices.end(), p) - vertices.begin()); };
-  std::vector<Vec2> places;
-  for (const VertexId p : vertices) places.push_back({mesh.points[p][u], mesh.points[p][v]});
+  std::vector<Vec2> locations;
+  for (const VertexId p : vertices) locations.push_back({mesh.points[p][u], mesh.points[p][v]});
   std::vector<std::array<std::uint32_t, 2>> segments;
-  for (const auto* edges : {&rim, &lines})
+  for (const auto* edges : {&border, &lines})
     for (const auto& [a, b] : *edges) segments.push_back({number(a), number(b)});
   std::vector<std::array<std::uint32_t, 3>> triangles;
   try {
-    triangles = triangulate_rims(places, segments, context);
+    triangles = triangulate_borders(locations, segments, context);
   } catch (const Error& error) {
     ErrorInfo info = error.info();
     info.attempted = k_planes_attempt;
     info.problem = "the open boundaries in the plane " + name_of(end) + " cross: " + info.problem;
-    for (ErrorPlace& place : info.places) {
+    for (ErrorLocation& location : info.locations) {
       Point p;
       p[end.axis] = end.at;
-      p[u] = place.position.x;
-      p[v] = place.position.y;
-      place.position = p;
+      p[u] = location.position.x;
+      p[v] = location.position.y;
+      location.position = p;
     }
     info.geometry = {};
     throw Error(std::move(info));
@@ -175,18 +175,18 @@ void require_closed(const TriMesh& mesh, const RunContext& context) {
   ErrorInfo info{.code = ErrorCode::open_surface,
                  .attempted = k_planes_attempt,
                  .problem = "the planes do not close the surface: " + std::to_string(topology.n_boundary_halfedges()) + " edges still have only one triangle",
-                 .n_places = static_cast<std::int64_t>(topology.n_boundary_halfedges()),
+                 .n_locations = static_cast<std::int64_t>(topology.n_boundary_halfedges()),
                  .hint = "open boundaries must not touch each other, and each must separate fluid and body"};
-  for (std::size_t i = 0; i < topology.n_halfedges() && info.places.size() < k_max_places; ++i)
-    if (topology.is_boundary(HalfedgeId(i))) info.places.push_back({mesh.points[topology.from(HalfedgeId(i))], "an open edge starts here"});
+  for (std::size_t i = 0; i < topology.n_halfedges() && info.locations.size() < k_max_locations; ++i)
+    if (topology.is_boundary(HalfedgeId(i))) info.locations.push_back({mesh.points[topology.from(HalfedgeId(i))], "an open edge starts here"});
   throw Error(std::move(info));
 }
 
 }  // namespace
 
-std::vector<EndPlane> end_planes_of(const Constraints& rims) {
+std::vector<EndPlane> end_planes_of(const Constraints& borders) {
   std::vector<EndPlane> ends;
-  for (const auto& surface : rims.surfaces) {
+  for (const auto& surface : borders.surfaces) {
     const Vec3 normal = surface->normal({});
     EndPlane end;
     for (std::size_t k = 0; k < 3; ++k)
@@ -222,11 +222,11 @@ std::vector<double> volumes_of(const TriMesh& mesh, const Components& components
 }
 
 void fill_ends(TriMesh& mesh, std::span<const EndPlane> ends, std::span<const Patch> patches, std::span<const double> edges, const RunContext& context) {
-  std::vector<std::vector<Edge>> rims = rim_edges(mesh, ends, context), lines(ends.size());
+  std::vector<std::vector<Edge>> borders = border_edges(mesh, ends, context), lines(ends.size());
   for (std::size_t k = 0; k < ends.size(); ++k)
     for (std::size_t l = k + 1; l < ends.size(); ++l)
-      if (ends[k].axis != ends[l].axis) join_on_line(mesh, ends, edges, k, l, rims, lines);
-  for (std::size_t k = 0; k < ends.size(); ++k) triangulate(mesh, ends[k], rims[k], lines[k], patches[k], context);
+      if (ends[k].axis != ends[l].axis) join_on_line(mesh, ends, edges, k, l, borders, lines);
+  for (std::size_t k = 0; k < ends.size(); ++k) triangulate(mesh, ends[k], borders[k], lines[k], patches[k], context);
   require_closed(mesh, context);
 }
 

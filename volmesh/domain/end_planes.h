@@ -8,12 +8,12 @@
 #include "geom/mesh/topology.h"
 #include "geom/mesh/tri_mesh.h"
 #include "volmesh/domain/farfield.h"
-#include "volmesh/envelope/constrain_rims.h"
+#include "volmesh/envelope/constrain_borders.h"
 
 namespace sterna::volmesh {
 
-/// Returns the planes found by constraints_of_rims().
-std::vector<EndPlane> end_planes_of(const Constraints& rims);
+/// Returns the planes found by constraints_of_borders().
+std::vector<EndPlane> end_planes_of(const Constraints& borders);
 
 /// Returns the signed volume of each component, as the flux of one coordinate along its axis. The coordinate is chosen so that the planes contribute nothing.
 /// Volumes are positive for bodies with outward normals, also if the bodies are open in the planes.

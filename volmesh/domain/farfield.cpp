@@ -142,7 +142,7 @@ void check_encloses(const TriMesh& wall, const Vec3& center, double inner, doubl
   ErrorInfo error = bad("the flat triangles of the sphere come within " + in_metres(inner) + " of its centre, but the wall and a margin of " +
                             std::to_string(k_margin) + " body lengths reach out to " + in_metres(needed),
                         "raise farfield.farfield_radius (default 50 body lengths, here " + in_metres(k_default_radius * length) + ")");
-  error.places.push_back({farthest, "farthest point of the wall"});
+  error.locations.push_back({farthest, "farthest point of the wall"});
   throw Error(std::move(error));
 }
 

@@ -62,9 +62,9 @@ void check_encloses(const TriMesh& wall, const Box& box, std::span<const EndPlan
     info.problem += (info.problem.empty() ? "" : "; ") + std::string("side ") + k_box_sides[side] + " at " + in_metres(at) + ": the wall is " +
                     (beyond(farthest) > 0.0 ? "outside by " : "inside by ") + in_metres(std::abs(beyond(farthest))) + " but must be inside by " +
                     in_metres(margin);
-    info.places.push_back({farthest, std::string("farthest point of the wall towards ") + k_box_sides[side]});
+    info.locations.push_back({farthest, std::string("farthest point of the wall towards ") + k_box_sides[side]});
   }
-  if (!info.places.empty()) throw Error(std::move(info));
+  if (!info.locations.empty()) throw Error(std::move(info));
 }
 
 class BoxMesh {
@@ -86,10 +86,10 @@ class BoxMesh {
   double length(std::size_t axis) const { return size_.box.max[axis] - size_.box.min[axis]; }
   /// Divides the edge from a corner along an axis, with the edge length of the finer of the two adjacent sides.
   void divide(std::size_t axis, std::size_t corner) {
-    double wanted = 1e300;
+    double target = 1e300;
     for (std::size_t k = 0; k < 3; ++k)
-      if (k != axis) wanted = std::min(wanted, size_.edge[2 * k + ((corner >> k) & 1)]);
-    const int n = pieces(length(axis), wanted);
+      if (k != axis) target = std::min(target, size_.edge[2 * k + ((corner >> k) & 1)]);
+    const int n = pieces(length(axis), target);
     std::vector<VertexId>& edge = edges_[axis][corner];
     edge.push_back(VertexId(corner));
     for (int i = 1; i < n; ++i) {

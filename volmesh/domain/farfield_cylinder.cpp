@@ -78,7 +78,7 @@ void check_encloses(const TriMesh& wall, const CylinderSize& size) {
     if (needed(farthest) + margin <= given) return;
     info.problem += (info.problem.empty() ? "" : "; ") + what + " is " + in_metres(given) + ", but the wall and a margin of 0.02 body lengths need " +
                     in_metres(needed(farthest) + margin);
-    info.places.push_back({farthest, "farthest point of the wall"});
+    info.locations.push_back({farthest, "farthest point of the wall"});
   };
   require(
       "radius inside the flat triangles of the side", [&](const Point& p) { return norm((p - size.from) - dot(p - size.from, size.axis) * size.axis); }, inner);
@@ -86,7 +86,7 @@ void check_encloses(const TriMesh& wall, const CylinderSize& size) {
       "length before the start of the cylinder", [&](const Point& p) { return -dot(p - size.from, size.axis); }, 0.0);
   require(
       "length from start to end of the cylinder", [&](const Point& p) { return dot(p - size.from, size.axis); }, size.length);
-  if (!info.places.empty()) throw Error(std::move(info));
+  if (!info.locations.empty()) throw Error(std::move(info));
 }
 
 class CylinderMesh {
@@ -108,7 +108,7 @@ class CylinderMesh {
     for (int i = 0; i < n; ++i) ring.push_back(mesh_.points.push_back(on_side(k_two_pi * i / n, along)));
     return ring;
   }
-  void fill_end(const char* name, const std::vector<VertexId>& ring, double along, double wanted, const RunContext& context) {
+  void fill_end(const char* name, const std::vector<VertexId>& ring, double along, double target, const RunContext& context) {
     const auto n = static_cast<double>(ring.size());
     const double spacing = 2.0 * size_.radius * std::sin(std::numbers::pi / n), inner = size_.radius * std::cos(std::numbers::pi / n);
     std::vector<Vec2> polygon;
@@ -118,7 +118,7 @@ class CylinderMesh {
         polygon,
         [&](const Vec2& p) {
           const double from_border = inner - std::hypot(p.x, p.y);
-          return LocalSize{std::min(wanted, spacing + k_edge_growth * std::max(0.0, from_border)), from_border};
+          return LocalSize{std::min(target, spacing + k_edge_growth * std::max(0.0, from_border)), from_border};
         },
         context);
     std::vector<VertexId> vertices = ring;

@@ -4,7 +4,7 @@
 #include <numeric>
 
 #include "geom/delaunay/planar.h"
-#include "geom/delaunay/refine.h"
+#include "geom/delaunay/refinement_queue.h"
 
 namespace sterna::volmesh {
 namespace {
@@ -75,8 +75,8 @@ PolygonFill fill_polygon(std::span<const Vec2> polygon, const std::function<Loca
   return fill;
 }
 
-std::vector<std::array<std::uint32_t, 3>> triangulate_rims(std::span<const Vec2> points, std::span<const std::array<std::uint32_t, 2>> segments,
-                                                           const RunContext& context) {
+std::vector<std::array<std::uint32_t, 3>> triangulate_borders(std::span<const Vec2> points, std::span<const std::array<std::uint32_t, 2>> segments,
+                                                              const RunContext& context) {
   std::vector<delaunay::Segment> borders;
   for (const auto& [from, to] : segments) borders.push_back({from, to, true});
   const delaunay::PlanarTriangulation plane = delaunay::triangulate_plane(points, borders, delaunay::Extent::inside, context);

@@ -29,7 +29,7 @@ PolygonFill fill_polygon(std::span<const Vec2> polygon, const std::function<Loca
 
 /// Triangulates the area inside an odd number of the loops that the segments form. Triangles are counter-clockwise, and there are no new points.
 /// \throws Error(self_intersection) with the location (z = 0) where segments cross
-std::vector<std::array<std::uint32_t, 3>> triangulate_rims(std::span<const Vec2> points, std::span<const std::array<std::uint32_t, 2>> segments,
-                                                           const RunContext& context);
+std::vector<std::array<std::uint32_t, 3>> triangulate_borders(std::span<const Vec2> points, std::span<const std::array<std::uint32_t, 2>> segments,
+                                                              const RunContext& context);
 
 }  // namespace sterna::volmesh

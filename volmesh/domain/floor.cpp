@@ -1,7 +1,7 @@
 // 1. require_sheet: determines which parts are open, and checks that they match farfield_floor.
 // 2. up_of: determines the vertical axis from the area vector of the sheet.
 // 3. box_above: determines the sides and the lid.
-// 4. snap_rim: moves open-boundary vertices into the sides.
+// 4. snap_border: moves open-boundary vertices into the sides.
 #include "volmesh/domain/floor.h"
 
 #include <algorithm>
@@ -14,7 +14,7 @@
 #include "geom/math/measures.h"
 #include "geom/mesh/bvh.h"
 #include "volmesh/case/ignored_requests.h"
-#include "volmesh/domain/flatten_rims.h"
+#include "volmesh/domain/flatten_borders.h"
 #include "volmesh/domain/shape_sizes.h"
 
 namespace sterna::volmesh {
@@ -55,12 +55,12 @@ std::vector<std::uint8_t> require_sheet(const TriMesh& mesh, const Topology& top
   for (std::uint32_t c = 0; c < components.count; ++c) {
     has_sheet |= is_open[c] != 0 && is_floor[c] != 0;
     if (is_open[c] == 0 || is_floor[c] != 0) continue;
-    ++other.n_places;
-    if (other.places.size() < k_max_places) other.places.push_back({corners(mesh, open_at[c])[0], "an open part that is not the floor"});
+    ++other.n_locations;
+    if (other.locations.size() < k_max_locations) other.locations.push_back({corners(mesh, open_at[c])[0], "an open part that is not the floor"});
   }
   if (!has_sheet) throw Error(std::move(closed));
-  other.problem = std::to_string(other.n_places) + " open parts have no patch \"" + floor + "\"";
-  if (other.n_places > 0) throw Error(std::move(other));
+  other.problem = std::to_string(other.n_locations) + " open parts have no patch \"" + floor + "\"";
+  if (other.n_locations > 0) throw Error(std::move(other));
   return is_open;
 }
 
@@ -80,12 +80,12 @@ std::size_t up_of(const TriMesh& mesh, const Components& components, const std::
     throw Error({.code = ErrorCode::bad_argument,
                  .attempted = k_floor_attempt,
                  .problem = std::string("the normals of the floor point downwards, along -") + "xyz"[up] + ", away from the fluid above it",
-                 .places = {{corners(mesh, first)[0], "a triangle of the floor"}},
+                 .locations = {{corners(mesh, first)[0], "a triangle of the floor"}},
                  .hint = "reverse the triangles of the floor; volume_mesh does this automatically"});
   return up;
 }
 
-std::vector<std::array<VertexId, 2>> rim_of(const Topology& topology) {
+std::vector<std::array<VertexId, 2>> floor_border_of(const Topology& topology) {
   std::vector<std::array<VertexId, 2>> edges;
   for (std::size_t i = 0; i < topology.n_halfedges(); ++i) {
     const HalfedgeId h(i);
@@ -94,17 +94,17 @@ std::vector<std::array<VertexId, 2>> rim_of(const Topology& topology) {
   return edges;
 }
 
-Box box_above(const TriMesh& mesh, const std::vector<std::array<VertexId, 2>>& rim, std::size_t up, const FarfieldOptions& options) {
-  Box box, of_rim;
-  for (const auto& [from, to] : rim) of_rim.add(mesh.points[from]);
+Box box_above(const TriMesh& mesh, const std::vector<std::array<VertexId, 2>>& border, std::size_t up, const FarfieldOptions& options) {
+  Box box, of_border;
+  for (const auto& [from, to] : border) of_border.add(mesh.points[from]);
   const Box all = bounding_box(mesh);
   const std::array from = {options.farfield_from_x, options.farfield_from_y, options.farfield_from_z},
                    to = {options.farfield_to_x, options.farfield_to_y, options.farfield_to_z};
   double longest = 0.0;
   for (std::size_t k = 0; k < 3; ++k) {
     if (k == up) continue;
-    box.min[k] = is_automatic(from[k]) ? of_rim.min[k] : from[k];
-    box.max[k] = is_automatic(to[k]) ? of_rim.max[k] : to[k];
+    box.min[k] = is_automatic(from[k]) ? of_border.min[k] : from[k];
+    box.max[k] = is_automatic(to[k]) ? of_border.max[k] : to[k];
     longest = std::max(longest, box.max[k] - box.min[k]);
   }
   box.min[up] = all.min[up];
@@ -116,7 +116,7 @@ Box box_above(const TriMesh& mesh, const std::vector<std::array<VertexId, 2>>& r
                  .attempted = k_floor_attempt,
                  .problem = std::string("the box begins at ") + "xyz"[up] + " = " + in_metres(from[up]) + ", above the lowest point of the floor at " +
                             in_metres(all.min[up]),
-                 .places = {{lowest, "the lowest point"}},
+                 .locations = {{lowest, "the lowest point"}},
                  .hint = "lower the corner farfield_from: the fluid begins at the floor, also where the corner is lower"});
   }
   if (box.max[up] >= all.max[up] + margin) return box;
@@ -125,7 +125,7 @@ Box box_above(const TriMesh& mesh, const std::vector<std::array<VertexId, 2>>& r
                .attempted = k_floor_attempt,
                .problem = std::string("the lid at ") + "xyz"[up] + " = " + in_metres(box.max[up]) + " is less than " + in_metres(margin) +
                           " above the highest point of the surface at " + in_metres(all.max[up]),
-               .places = {{highest, "the highest point"}},
+               .locations = {{highest, "the highest point"}},
                .hint = "raise the upper corner of the box"});
 }
 
@@ -135,7 +135,7 @@ double off(const Point& p, const EndPlane& side) { return std::abs(p[side.axis] 
 
 /// Returns the location of an open-boundary edge that lies in none of the sides: the end of the edge that is farther from its nearest side, or either end if
 /// each end lies in another side.
-ErrorPlace place_off(const TriMesh& mesh, const std::array<VertexId, 2>& edge, const std::array<EndPlane, 4>& sides) {
+ErrorLocation location_off(const TriMesh& mesh, const std::array<VertexId, 2>& edge, const std::array<EndPlane, 4>& sides) {
   const auto nearest = [&](const Point& p) { return *std::ranges::min_element(sides, {}, [&](const EndPlane& side) { return off(p, side); }); };
   Point worst = mesh.points[edge[0]];
   if (const Point& other = mesh.points[edge[1]]; off(other, nearest(other)) > off(worst, nearest(worst))) worst = other;
@@ -144,23 +144,23 @@ ErrorPlace place_off(const TriMesh& mesh, const std::array<VertexId, 2>& edge, c
                      " = " + in_metres(side.at)};
 }
 
-void snap_rim(const std::vector<std::array<VertexId, 2>>& rim, const std::array<EndPlane, 4>& sides, const std::string& floor, TriMesh& mesh) {
-  const double tolerance = k_flat_rim * body_length(mesh);
+void snap_border(const std::vector<std::array<VertexId, 2>>& border, const std::array<EndPlane, 4>& sides, const std::string& floor, TriMesh& mesh) {
+  const double tolerance = k_flat_border * body_length(mesh);
   ErrorInfo info{.code = ErrorCode::open_surface,
                  .attempted = k_floor_attempt,
                  .hint = "cut the floor along the sides of the box, or place the box corners at the corners of the floor; close holes of the floor"};
-  for (const std::array<VertexId, 2>& edge : rim) {
+  for (const std::array<VertexId, 2>& edge : border) {
     const bool is_in_side = std::ranges::any_of(
         sides, [&](const EndPlane& side) { return off(mesh.points[edge[0]], side) <= tolerance && off(mesh.points[edge[1]], side) <= tolerance; });
     if (is_in_side) continue;
-    ++info.n_places;
-    if (info.places.size() < k_max_places) info.places.push_back(place_off(mesh, edge, sides));
+    ++info.n_locations;
+    if (info.locations.size() < k_max_locations) info.locations.push_back(location_off(mesh, edge, sides));
   }
-  info.problem = std::to_string(info.n_places) + " of " + std::to_string(rim.size()) + " border edges of the floor \"" + floor +
+  info.problem = std::to_string(info.n_locations) + " of " + std::to_string(border.size()) + " border edges of the floor \"" + floor +
                  "\" lie in none of the vertical sides of the box; the limit is " + in_metres(tolerance);
-  if (info.n_places > 0) throw Error(std::move(info));
+  if (info.n_locations > 0) throw Error(std::move(info));
   const Column<VertexId, Point> before = mesh.points;
-  for (const std::array<VertexId, 2>& edge : rim)
+  for (const std::array<VertexId, 2>& edge : border)
     for (const VertexId v : edge)
       for (const EndPlane& side : sides)
         if (off(before[v], side) <= tolerance) mesh.points[v][side.axis] = side.at;
@@ -169,11 +169,11 @@ void snap_rim(const std::vector<std::array<VertexId, 2>>& rim, const std::array<
     const auto [a, b, c] = corners(mesh, t);
     if (mesh.points[v[0]] == before[v[0]] && mesh.points[v[1]] == before[v[1]] && mesh.points[v[2]] == before[v[2]]) continue;
     if (dot(area_vector(a, b, c), area_vector(before[v[0]], before[v[1]], before[v[2]])) > 0.0) continue;
-    ++info.n_places;
-    if (info.places.size() < k_max_places) info.places.push_back({a, "this triangle"});
+    ++info.n_locations;
+    if (info.locations.size() < k_max_locations) info.locations.push_back({a, "this triangle"});
   }
-  if (info.n_places == 0) return;
-  info.problem = std::to_string(info.n_places) + " triangles at the border of the floor \"" + floor +
+  if (info.n_locations == 0) return;
+  info.problem = std::to_string(info.n_locations) + " triangles at the border of the floor \"" + floor +
                  "\" would be inverted by moving the border into the sides of the box";
   throw Error(std::move(info));
 }
@@ -189,15 +189,15 @@ FloorBox fit_floor(const Topology& topology, const FarfieldOptions& options, Tri
   FloorBox floor;
   for (const std::uint32_t c : components.component) floor.is_body.push_back(is_open[c] != 0 ? 0 : 1);
   floor.up = up_of(mesh, components, is_open);
-  const std::vector<std::array<VertexId, 2>> rim = rim_of(topology);
-  floor.box = box_above(mesh, rim, floor.up, options);
+  const std::vector<std::array<VertexId, 2>> border = floor_border_of(topology);
+  floor.box = box_above(mesh, border, floor.up, options);
   std::size_t n = 0;
   for (std::size_t k = 0; k < 3; ++k) {
     if (k == floor.up) continue;
     floor.sides[n++] = {.axis = k, .at = floor.box.min[k], .inward = 1.0};
     floor.sides[n++] = {.axis = k, .at = floor.box.max[k], .inward = -1.0};
   }
-  snap_rim(rim, floor.sides, options.farfield_floor, mesh);
+  snap_border(border, floor.sides, options.farfield_floor, mesh);
   const std::vector<SideRule> rules = parse_sides(options.farfield_sides);
   const double common = common_edge(options.farfield_edge, k_default_edge * 0.5 * floor.box.longest_side());
   for (std::size_t side = 0; side < 6; ++side) floor.edges[side] = edge_of_side(rules, k_box_sides[side], common);
@@ -220,11 +220,11 @@ void check_bodies_above(const FloorBox& floor, const TriMesh& boundary, const Ru
     if (t.index() >= floor.is_body.size() || floor.is_body[t.index()] == 0) continue;
     const Point p = corners(boundary, t)[0];
     if (std::abs(tree.winding_number(p)) >= 0.5) continue;
-    ++info.n_places;
-    if (info.places.size() < k_max_places) info.places.push_back({p, "a triangle of a closed part"});
+    ++info.n_locations;
+    if (info.locations.size() < k_max_locations) info.locations.push_back({p, "a triangle of a closed part"});
   }
-  info.problem = std::to_string(info.n_places) + " triangles of closed parts are below the floor or outside the sides of the box";
-  if (info.n_places > 0) throw Error(std::move(info));
+  info.problem = std::to_string(info.n_locations) + " triangles of closed parts are below the floor or outside the sides of the box";
+  if (info.n_locations > 0) throw Error(std::move(info));
 }
 
 }  // namespace sterna::volmesh

@@ -1,5 +1,5 @@
-// Steps: find_edges, choose_vertices, walk_chains (finds which side of a vertex is left and which is right), make_fans, make_corners, close_gaps. Virtual
-// triangles are equivalent to a tiny rounding of the edge, so all later steps work as on any other wall.
+// Steps: find_edges, choose_vertices, walk_chains (finds which side of a vertex is left and which is right), make_multi_normals, make_corners, close_gaps.
+// Virtual triangles are equivalent to a tiny rounding of the edge, so all later steps work as on any other wall.
 #include "volmesh/domain/open_ridges.h"
 
 #include <algorithm>
@@ -60,10 +60,10 @@ class RidgeOpener {
     find_edges();
     choose_vertices(closed);
     walk_chains();
-    make_fans();
+    make_multi_normals();
     make_corners();
     if (domain_.ridges.is_empty()) return;
-    number_feet();
+    number_base_vertices();
     close_gaps();
     pair_lines();
   }
@@ -112,11 +112,11 @@ class RidgeOpener {
 
   bool is_inner_at(HalfedgeId h) const { return h.is_valid() && inner_[topology_.to(h)]; }
   VertexId vertex_at(HalfedgeId h) const { return h.is_valid() ? topology_.to(h) : VertexId{}; }
-  bool has_fan(VertexId v) const { return inner_[v] || corners_.contains(v); }
-  bool has_fan_at(HalfedgeId h) const { return h.is_valid() && has_fan(topology_.to(h)); }
+  bool has_multi_normal(VertexId v) const { return inner_[v] || corners_.contains(v); }
+  bool has_multi_normal_at(HalfedgeId h) const { return h.is_valid() && has_multi_normal(topology_.to(h)); }
   /// Returns true if a chain may end here. A multi-normal fan needs an adjacent fan. The vertex after the last fan is the end of the chain, and it must be
   /// free.
-  bool can_end(HalfedgeId h) const { return !h.is_valid() || has_fan_at(h) || is_free(topology_.to(h)); }
+  bool can_end(HalfedgeId h) const { return !h.is_valid() || has_multi_normal_at(h) || is_free(topology_.to(h)); }
 
   /// Returns the sum of the normals of the triangles on one side of a vertex, weighted by their angles at the vertex.
   Vec3 sum_of_normals(VertexId v, const std::vector<TriangleId>& side) const {
@@ -267,7 +267,7 @@ class RidgeOpener {
       }
     patch_beyond_.resize(wall_.n_vertices());
     Column<VertexId, std::uint8_t> has_other(wall_.n_vertices(), 0);
-    for (const RimEdge& edge : domain_.rim)
+    for (const LayerBorderEdge& edge : domain_.border)
       for (const VertexId v : {topology_.from(edge.halfedge), topology_.to(edge.halfedge)}) {
         has_other[v] = has_other[v] != 0 || (patch_beyond_[v].is_valid() && patch_beyond_[v] != edge.patch) ? 1 : 0;
         patch_beyond_[v] = edge.patch;
@@ -295,13 +295,14 @@ class RidgeOpener {
         if (!inner_[v]) continue;
         const HalfedgeId ahead = inner_[v]->ahead, back = inner_[v]->back;
         const bool goes_on = !partner_[v].is_valid() || inner_[partner_[v]];
-        if (goes_on && vertex_at(ahead) != vertex_at(back) && (has_fan_at(ahead) || has_fan_at(back)) && can_end(ahead) && can_end(back)) continue;
+        if (goes_on && vertex_at(ahead) != vertex_at(back) && (has_multi_normal_at(ahead) || has_multi_normal_at(back)) && can_end(ahead) && can_end(back))
+          continue;
         inner_[v].reset();
         has_changed = true;
       }
       const auto cannot_be = [&](const auto& entry) {
         const std::vector<HalfedgeId>& edges = entry.second.edges;
-        return std::ranges::count_if(edges, [&](HalfedgeId h) { return has_fan_at(h); }) < 2 ||
+        return std::ranges::count_if(edges, [&](HalfedgeId h) { return has_multi_normal_at(h); }) < 2 ||
                !std::ranges::all_of(edges, [&](HalfedgeId h) { return can_end(h); });
       };
       if (std::erase_if(corners_, cannot_be) > 0) has_changed = true;
@@ -356,16 +357,16 @@ class RidgeOpener {
         for (const HalfedgeId h : corners_.at(v).edges) f(h);
     };
     for (const VertexId v : wall_.points.ids())
-      if (has_fan(v))
+      if (has_multi_normal(v))
         for_each_edge_of(v, [&](HalfedgeId h) {
-          if (!has_fan_at(h)) reach(v, distance(point(v), point(topology_.to(h))));
+          if (!has_multi_normal_at(h)) reach(v, distance(point(v), point(topology_.to(h))));
         });
     while (!front.empty()) {
       const auto [length, v] = front.top();
       front.pop();
       if (length > to_end[v]) continue;
       for_each_edge_of(v, [&](HalfedgeId h) {
-        if (has_fan_at(h)) reach(topology_.to(h), length + distance(point(v), point(topology_.to(h))));
+        if (has_multi_normal_at(h)) reach(topology_.to(h), length + distance(point(v), point(topology_.to(h))));
       });
       if (partner_[v].is_valid()) reach(partner_[v], length);
     }
@@ -373,7 +374,7 @@ class RidgeOpener {
   }
 
   /// Creates the new vertices. Moves the given triangles on the right side to the new vertices there.
-  void make_fans() {
+  void make_multi_normals() {
     OpenedRidges& ridges = domain_.ridges;
     ridges.n_given_vertices = wall_.n_vertices();
     ridges.n_given_triangles = wall_.n_triangles();
@@ -392,7 +393,7 @@ class RidgeOpener {
     for (bool has_changed = true; has_changed;) {
       has_changed = false;
       for (const auto& pair : domain_.partners) {
-        if (!has_fan_pair(pair)) continue;
+        if (!has_multi_normal_pair(pair)) continue;
         double &one = most[chain_of[pair[0]]], &other = most[chain_of[pair[1]]];
         if (one == other) continue;
         one = other = std::max(one, other);
@@ -408,7 +409,7 @@ class RidgeOpener {
       for (const VertexId v : chain) {
         Inner& inner = *inner_[v];
         const double half = 0.5 * inner.turn.angle;
-        ridges.feet.push_back({v, given_[v], inner.turn.turned(inner.normal[0], half), std::max(0.0, std::cos(half)), to_end_[v]});
+        ridges.base_vertices.push_back({v, given_[v], inner.turn.turned(inner.normal[0], half), std::max(0.0, std::cos(half)), to_end_[v]});
         for (int i = 0; i <= n; ++i)
           inner.lines.push_back(new_line(v, i == 0,
                                          i == 0   ? inner.normal[0]
@@ -422,7 +423,7 @@ class RidgeOpener {
   /// Returns the edges beyond the first and the last vertex of the chain.
   std::array<HalfedgeId, 2> ways_out(const std::vector<VertexId>& chain) const { return {inner_[chain.front()]->back, inner_[chain.back()]->ahead}; }
 
-  bool has_fan_pair(const std::array<VertexId, 2>& pair) const {
+  bool has_multi_normal_pair(const std::array<VertexId, 2>& pair) const {
     return std::ranges::all_of(pair, [&](VertexId v) { return v.index() < inner_.size() && inner_[v] && partner_[v].is_valid(); });
   }
 
@@ -430,7 +431,7 @@ class RidgeOpener {
   void pair_lines() {
     std::vector<std::array<VertexId, 2>> more;
     for (auto& pair : domain_.partners) {
-      if (!has_fan_pair(pair)) continue;
+      if (!has_multi_normal_pair(pair)) continue;
       const std::vector<VertexId> one = lines_along(edge_at(pair[0])), other = lines_along(edge_at(pair[1]));
       pair = {one.front(), other.back()};
       for (std::size_t i = 1; i < one.size(); ++i) more.push_back({one[i], other[one.size() - 1 - i]});
@@ -484,22 +485,22 @@ class RidgeOpener {
         if (i > 0) move_triangles(v, sector(corner.edges[i], corner.edges[(i + 1) % n]), of_side[i]);
       }
       corner.middle = new_line(v, false, middle);
-      domain_.ridges.feet.push_back({v, given_[v], middle, std::max(0.0, visibility), to_end_[v]});
+      domain_.ridges.base_vertices.push_back({v, given_[v], middle, std::max(0.0, visibility), to_end_[v]});
     }
   }
 
-  void number_feet() {
+  void number_base_vertices() {
     OpenedRidges& ridges = domain_.ridges;
-    std::ranges::sort(ridges.feet, {}, &OpenedRidges::Foot::vertex);
-    ridges.foot.resize(wall_.n_vertices());
-    for (const VertexId v : ridges.foot.ids()) ridges.foot[v] = v;
+    std::ranges::sort(ridges.base_vertices, {}, &OpenedRidges::BaseVertex::vertex);
+    ridges.base_vertex.resize(wall_.n_vertices());
+    for (const VertexId v : ridges.base_vertex.ids()) ridges.base_vertex[v] = v;
     for (const std::vector<VertexId>& chain : chains_)
       for (const VertexId v : chain)
-        for (const VertexId line : inner_[v]->lines) ridges.foot[line] = v;
+        for (const VertexId line : inner_[v]->lines) ridges.base_vertex[line] = v;
     for (const auto& [v, corner] : corners_) {
       for (const std::vector<VertexId>& lines : corner.lines)
-        for (const VertexId line : lines) ridges.foot[line] = v;
-      ridges.foot[corner.middle] = v;
+        for (const VertexId line : lines) ridges.base_vertex[line] = v;
+      ridges.base_vertex[corner.middle] = v;
     }
   }
 
@@ -526,7 +527,7 @@ class RidgeOpener {
           if (h.is_valid() && !(is_inner_at(h) && topology_.to(h) < v)) close_gap(h);
     for (const auto& [v, corner] : corners_) {
       for (const HalfedgeId h : corner.edges)
-        if (!is_inner_at(h) && !(has_fan_at(h) && topology_.to(h) < v)) close_gap(h);
+        if (!is_inner_at(h) && !(has_multi_normal_at(h) && topology_.to(h) < v)) close_gap(h);
       for (std::size_t i = 0; i < corner.edges.size(); ++i)
         for (std::size_t k = 0; k + 1 < corner.lines[i].size(); ++k) {
           ridges.corners.push_back({corner.lines[i][k + 1], corner.lines[i][k], corner.middle});
@@ -537,10 +538,10 @@ class RidgeOpener {
     ridges.end_vertices.erase(std::unique(ridges.end_vertices.begin(), ridges.end_vertices.end()), ridges.end_vertices.end());
     if (!domain_.constraints.vertex.empty())
       for (std::size_t i = domain_.constraints.vertex.size(); i < wall_.n_vertices(); ++i)
-        domain_.constraints.vertex.push_back(VertexConstraint(domain_.constraints.vertex[ridges.foot[VertexId(i)]]));
+        domain_.constraints.vertex.push_back(VertexConstraint(domain_.constraints.vertex[ridges.base_vertex[VertexId(i)]]));
     if (!domain_.constraints.near.empty())
       for (std::size_t i = domain_.constraints.near.size(); i < wall_.n_vertices(); ++i)
-        domain_.constraints.near.push_back(domain_.constraints.near[ridges.foot[VertexId(i)]]);
+        domain_.constraints.near.push_back(domain_.constraints.near[ridges.base_vertex[VertexId(i)]]);
   }
 
   /// Adds virtual triangles along an edge of a ridge that starts at a multi-normal fan.
@@ -549,7 +550,7 @@ class RidgeOpener {
     const VertexId v = topology_.from(h), w = topology_.to(h);
     const std::vector<VertexId> own = lines_along(h);
     const PatchId patch = wall_.triangle_patch[triangle_of(h)];
-    if (!has_fan(w)) {
+    if (!has_multi_normal(w)) {
       for (std::size_t i = 0; i + 1 < own.size(); ++i) {
         ridges.ends.push_back({w, own[i], own[i + 1]});
         add_triangle(ridges.ends.back(), h, patch);
@@ -562,8 +563,8 @@ class RidgeOpener {
     for (std::size_t i = 0; i + 1 < own.size(); ++i) {
       add_quad({other[i], own[i], own[i + 1], other[i + 1]}, h, patch);
       const TriangleId last(wall_.n_triangles() - 1);
-      if (is_at_plane(v)) domain_.rim.push_back({halfedge(TriangleId(last.index() - 1), 1), patch_beyond_[v]});
-      if (is_at_plane(w)) domain_.rim.push_back({halfedge(last, 2), patch_beyond_[w]});
+      if (is_at_plane(v)) domain_.border.push_back({halfedge(TriangleId(last.index() - 1), 1), patch_beyond_[v]});
+      if (is_at_plane(w)) domain_.border.push_back({halfedge(last, 2), patch_beyond_[w]});
     }
   }
 
@@ -600,22 +601,24 @@ class RidgeOpener {
 };
 
 /// Returns the ridge base vertices of multi-normal fans at which the opened wall intersects itself, ascending.
-std::vector<VertexId> crossing_fans(const Domain& opened, const RunContext& context) {
-  std::vector<VertexId> feet;
-  const auto is_fan = [&](VertexId foot) { return std::ranges::binary_search(opened.ridges.feet, foot, {}, &OpenedRidges::Foot::vertex); };
+std::vector<VertexId> crossing_multi_normals(const Domain& opened, const RunContext& context) {
+  std::vector<VertexId> base_vertices;
+  const auto is_multi_normal = [&](VertexId base_vertex) {
+    return std::ranges::binary_search(opened.ridges.base_vertices, base_vertex, {}, &OpenedRidges::BaseVertex::vertex);
+  };
   for (const auto& pair : find_crossings(opened.wall, context).pairs)
     for (const std::uint32_t t : pair)
       for (const VertexId v : opened.wall.triangles[TriangleId(t)])
-        if (const VertexId foot = opened.ridges.foot[v]; is_fan(foot)) feet.push_back(foot);
-  sort_unique(feet);
-  return feet;
+        if (const VertexId base_vertex = opened.ridges.base_vertex[v]; is_multi_normal(base_vertex)) base_vertices.push_back(base_vertex);
+  sort_unique(base_vertices);
+  return base_vertices;
 }
 
 std::size_t count_corners(const OpenedRidges& ridges) {
-  std::vector<VertexId> feet;
-  for (const auto& t : ridges.corners) feet.push_back(ridges.foot[t[0]]);
-  sort_unique(feet);
-  return feet.size();
+  std::vector<VertexId> base_vertices;
+  for (const auto& t : ridges.corners) base_vertices.push_back(ridges.base_vertex[t[0]]);
+  sort_unique(base_vertices);
+  return base_vertices.size();
 }
 
 }  // namespace
@@ -635,7 +638,7 @@ void open_ridges(const RidgeOptions& options, const Column<PatchId, std::uint8_t
     Domain opened = domain;
     RidgeOpener(options, is_open, first_height, raise, opened, context).open(shut);
     if (opened.ridges.is_empty()) return;
-    const std::vector<VertexId> crossing = crossing_fans(opened, context);
+    const std::vector<VertexId> crossing = crossing_multi_normals(opened, context);
     if (crossing.empty()) {
       domain = std::move(opened);
       break;
@@ -647,7 +650,7 @@ void open_ridges(const RidgeOptions& options, const Column<PatchId, std::uint8_t
   }
   const OpenedRidges& ridges = domain.ridges;
   const std::size_t n_corners = count_corners(ridges);
-  context.info("ridges: " + std::to_string(ridges.feet.size()) + " vertices of the wall have several normals, " +
+  context.info("ridges: " + std::to_string(ridges.base_vertices.size()) + " vertices of the wall have several normals, " +
                (n_corners == 0 ? "" : std::to_string(n_corners) + " of them corners, ") + std::to_string(domain.wall.n_vertices() - ridges.n_given_vertices) +
                " additional growth lines");
 }

@@ -22,7 +22,7 @@ namespace sterna::volmesh {
 /// would intersect itself; and vertices of `closed` (of the given wall). Single vertices between two ends stay closed.
 ///
 /// In a plane in which the wall ends (on one patch), a chain continues in its mirror image. On a periodic side it continues at the other side, and
-/// Domain::partners contains the growth lines of both. The fan at such a vertex lies in the plane. Domain::rim gets its edges, and its growth lines have the
+/// Domain::partners contains the growth lines of both. The fan at such a vertex lies in the plane. Domain::border gets its edges, and its growth lines have the
 /// constraint of their ridge base vertex. The outer boundary keeps a single vertex there. Vertices and triangles of the wall keep their numbers; new ones
 /// follow. \pre the domain is complete, without disc cuts
 /// \post the wall is closed and manifold as before. Domain::ridges describes the changes; without ridges nothing has changed

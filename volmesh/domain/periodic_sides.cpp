@@ -63,9 +63,9 @@ class Joiner {
     error_.problem = std::move(problem);
     throw Error(std::move(error_));
   }
-  void note(const Point& place, std::string what) {
-    ++error_.n_places;
-    if (error_.places.size() < k_max_places) error_.places.push_back({place, std::move(what)});
+  void note(const Point& location, std::string what) {
+    ++error_.n_locations;
+    if (error_.locations.size() < k_max_locations) error_.locations.push_back({location, std::move(what)});
   }
   static std::string metres(double x) { return in_metres(x, 3); }
 
@@ -171,9 +171,9 @@ class Joiner {
       if (!is_taken.contains(v))
         note(mesh_.points[v],
              "not the periodic image of a vertex; the nearest image is " + metres(distance_to(first, mesh_.points[v] - result_.translation)) + " away");
-    if (error_.n_places > 0)
-      fail(std::to_string(error_.n_places) + " border vertices have no partner within " + metres(tolerance_) + " (" + std::to_string(first.size()) + " on \"" +
-           names_.first + "\", " + std::to_string(second.size()) + " on \"" + names_.second + "\", " + format_point(result_.translation) +
+    if (error_.n_locations > 0)
+      fail(std::to_string(error_.n_locations) + " border vertices have no partner within " + metres(tolerance_) + " (" + std::to_string(first.size()) +
+           " on \"" + names_.first + "\", " + std::to_string(second.size()) + " on \"" + names_.second + "\", " + format_point(result_.translation) +
            " m between the sides)");
     return true;
   }
@@ -232,7 +232,7 @@ class Joiner {
     for (const Edge& edge : first)
       if (!others.contains({partner_.at(edge[1]), partner_.at(edge[0])}))
         note(0.5 * (mesh_.points[edge[0]] + mesh_.points[edge[1]]), "no border edge at the periodic image");
-    if (error_.n_places > 0) fail("the borders have the same vertices, but " + std::to_string(error_.n_places) + " edges differ");
+    if (error_.n_locations > 0) fail("the borders have the same vertices, but " + std::to_string(error_.n_locations) + " edges differ");
   }
 
   std::vector<TriangleId> triangles_of(PatchId side) const {

@@ -39,13 +39,13 @@ struct UserPart {
   Column<VertexId, VertexId> partner;  ///< partner of each vertex on another periodic side, if it has one
 };
 
-UserPart user_part(const TriMesh& complete, std::size_t n_given, const NeedleSplits& needles, std::span<const PeriodicPatches> periodic) {
+UserPart user_part(const TriMesh& complete, std::size_t n_given, const SliverSplits& slivers, std::span<const PeriodicPatches> periodic) {
   UserPart part;
   part.mesh.patches = complete.patches;
   Column<VertexId, VertexId> number(complete.n_vertices());
   Column<VertexId, std::uint8_t> is_used(complete.n_vertices(), 0);
   Column<PatchId, std::uint8_t> has_given(complete.patches.size(), 0);
-  const auto is_given = [&](TriangleId t) { return (needles.sources.empty() ? t : needles.sources[t]).index() < n_given; };
+  const auto is_given = [&](TriangleId t) { return (slivers.sources.empty() ? t : slivers.sources[t]).index() < n_given; };
   for (const TriangleId t : complete.triangles.ids())
     if (is_given(t)) has_given[complete.triangle_patch[t]] = 1;
   for (const PatchId p : complete.patches.ids())
@@ -111,10 +111,10 @@ void give_back_patches(const std::vector<LeftOut>& left_out, std::size_t n_befor
 
 }  // namespace
 
-SheetedBoundary with_wake_sheets(const TriMesh& complete, std::size_t n_given, const NeedleSplits& needles, std::span<const PeriodicPatches> periodic,
+SheetedBoundary with_wake_sheets(const TriMesh& complete, std::size_t n_given, const SliverSplits& slivers, std::span<const PeriodicPatches> periodic,
                                  std::span<const WakeSheet> wakes, double first_height, const std::function<TriMesh(const TriMesh&)>& complete_again,
                                  const RunContext& context) {
-  UserPart part = user_part(complete, n_given, needles, periodic);
+  UserPart part = user_part(complete, n_given, slivers, periodic);
   SheetsOnWall made = add_wake_sheets(wakes, stream_of(complete), first_height, part.partner, part.mesh, context);
   SheetedBoundary result;
   result.boundary = complete_again(part.mesh);
@@ -124,17 +124,17 @@ SheetedBoundary with_wake_sheets(const TriMesh& complete, std::size_t n_given, c
   const std::size_t n_own_vertices = sheets.n_given_vertices, n_own_triangles = sheets.n_given_triangles;
   const std::size_t shift = result.boundary.n_vertices() - n_vertices, n_added = n_vertices - n_own_vertices;
 
-  result.needles.report = needles.report;
+  result.slivers.report = slivers.report;
   const std::size_t n_completion = result.boundary.n_triangles() - n_triangles;
   constexpr CornerWeights k_whole = {{{1.0, 0.0, 0.0}, {0.0, 1.0, 0.0}, {0.0, 0.0, 1.0}}};
   const auto keep_source = [&](TriangleId t, bool is_own) {
-    result.needles.sources.push_back(needles.sources.empty() ? t : needles.sources[t]);
-    result.needles.weights.push_back(!is_own ? CornerWeights{} : needles.weights.empty() ? k_whole : needles.weights[t]);
+    result.slivers.sources.push_back(slivers.sources.empty() ? t : slivers.sources[t]);
+    result.slivers.weights.push_back(!is_own ? CornerWeights{} : slivers.weights.empty() ? k_whole : slivers.weights[t]);
   };
   for (const TriangleId t : part.triangles) keep_source(t, true);
   for (std::size_t i = 0; i < n_completion; ++i) {
-    result.needles.sources.push_back(TriangleId(n_given + i));
-    result.needles.weights.push_back(k_whole);
+    result.slivers.sources.push_back(TriangleId(n_given + i));
+    result.slivers.weights.push_back(k_whole);
   }
   for (const TriangleId t : made.sources) keep_source(part.triangles[t.index()], false);
 
@@ -147,10 +147,10 @@ SheetedBoundary with_wake_sheets(const TriMesh& complete, std::size_t n_given, c
   move_to_end(result.boundary.triangle_patch, n_own_triangles, n_triangles);
   for (TriangleVertices& t : result.boundary.triangles)
     for (VertexId& v : t) v = moved(v);
-  for (DoubledSheets::Foot& foot : sheets.feet)
-    for (std::array<VertexId, 2>* sides : {&foot.sides, &foot.start})
+  for (DoubledSheets::BaseVertex& base_vertex : sheets.base_vertices)
+    for (std::array<VertexId, 2>* sides : {&base_vertex.sides, &base_vertex.start})
       for (VertexId& v : *sides) v = moved(v);
-  for (VertexId& v : sheets.rims) v = moved(v);
+  for (VertexId& v : sheets.borders) v = moved(v);
   sheets.n_given_vertices += shift;
   sheets.n_given_triangles += n_completion;
   return result;
@@ -171,16 +171,16 @@ void hold_sheets(const SheetedBoundary& sheeted, Domain& domain) {
   domain.sheets = sheeted.sheets;
   domain.sheets.n_given_vertices = domain.wall.n_vertices() - n_added;
   domain.sheets.n_given_triangles = domain.wall.n_triangles() - n_sheet_triangles;
-  for (DoubledSheets::Foot& foot : domain.sheets.feet)
-    for (std::array<VertexId, 2>* sides : {&foot.sides, &foot.start})
+  for (DoubledSheets::BaseVertex& base_vertex : domain.sheets.base_vertices)
+    for (std::array<VertexId, 2>* sides : {&base_vertex.sides, &base_vertex.start})
       for (VertexId& v : *sides) v = number[v];
-  std::ranges::sort(domain.sheets.feet, {}, [](const DoubledSheets::Foot& foot) { return foot.sides[0]; });
+  std::ranges::sort(domain.sheets.base_vertices, {}, [](const DoubledSheets::BaseVertex& base_vertex) { return base_vertex.sides[0]; });
   domain.constraints.vertex.resize(domain.wall.n_vertices());
-  for (VertexId& v : domain.sheets.rims) {
+  for (VertexId& v : domain.sheets.borders) {
     v = number[v];
     domain.constraints.vertex[v].freedom = Freedom::fixed;
   }
-  std::ranges::sort(domain.sheets.rims);
+  std::ranges::sort(domain.sheets.borders);
 }
 
 }  // namespace sterna::volmesh

@@ -7,14 +7,14 @@
 #include "volmesh/domain/complete_boundary.h"
 #include "volmesh/domain/domain_parts.h"
 #include "volmesh/domain/periodic_sides.h"
-#include "volmesh/domain/split_needles.h"
+#include "volmesh/domain/split_slivers.h"
 #include "volmesh/domain/wake_sheets.h"
 
 namespace sterna::volmesh {
 
 struct SheetedBoundary {
   TriMesh boundary;
-  NeedleSplits needles;  ///< sources and weights of all triangles; sheet triangles have the source of the wall at the trailing edge, and no weights
+  SliverSplits slivers;  ///< sources and weights of all triangles; sheet triangles have the source of the wall at the trailing edge, and no weights
   DoubledSheets sheets;  ///< sheets in vertex and triangle numbers of the boundary; the entries that the sheets add are the last ones
 };
 
@@ -24,7 +24,7 @@ struct SheetedBoundary {
 /// boundary whose vertices are on their images. \p complete_again calls complete_boundary(), possibly with further steps; its input triangles are the first
 /// triangles of its result
 /// \throws the errors of add_wake_sheets() and complete_boundary(); Error(bad_argument) for given periodic sides that are not in such a plane
-SheetedBoundary with_wake_sheets(const TriMesh& complete, std::size_t n_given, const NeedleSplits& needles, std::span<const PeriodicPatches> periodic,
+SheetedBoundary with_wake_sheets(const TriMesh& complete, std::size_t n_given, const SliverSplits& slivers, std::span<const PeriodicPatches> periodic,
                                  std::span<const WakeSheet> wakes, double first_height, const std::function<TriMesh(const TriMesh&)>& complete_again,
                                  const RunContext& context);
 

@@ -13,17 +13,17 @@
 namespace sterna::volmesh {
 namespace {
 
-/// Rad: the limit equals that for edges of curved adjacent surfaces, which footprints may not cross (rims/end_surface.h).
+/// Rad: the limit equals that for edges of curved adjacent surfaces, which footprints may not cross (adjacent/adjacent_surface.h).
 constexpr double k_corner_angle = 40.0 * std::numbers::pi / 180.0;
 
 /// Edges of the boundary, classified by the patches on both sides.
 class Corners {
  public:
   Corners(const TriMesh& boundary, const Column<PatchId, std::uint8_t>& has_layer, const RunContext& context)
-      : boundary_(boundary), has_layer_(has_layer), topology_(boundary, context), is_on_rim_(boundary.n_vertices(), 0) {
+      : boundary_(boundary), has_layer_(has_layer), topology_(boundary, context), is_on_border_(boundary.n_vertices(), 0) {
     for_each_edge([&](HalfedgeId h, TriangleId t, TriangleId beyond) {
       if (is_layered(t) == is_layered(beyond)) return;
-      is_on_rim_[topology_.from(h)] = is_on_rim_[topology_.to(h)] = 1;
+      is_on_border_[topology_.from(h)] = is_on_border_[topology_.to(h)] = 1;
     });
   }
 
@@ -36,7 +36,7 @@ class Corners {
       const PatchId patch = boundary_.triangle_patch[t];
       if (is_layered(t) || patch != boundary_.triangle_patch[beyond] || !is_sharp(t, beyond)) return;
       for (const VertexId v : {topology_.from(h), topology_.to(h)})
-        if (is_on_rim_[v] || is_shared[v]) has_corner[patch.index()] = 1;
+        if (is_on_border_[v] || is_shared[v]) has_corner[patch.index()] = 1;
     });
     return has_corner;
   }
@@ -52,12 +52,12 @@ class Corners {
   }
 
   /// Returns for each part, stored at its lowest triangle, 1 if a layer ends on the part along an edge.
-  std::vector<std::uint8_t> parts_with_rims(const std::vector<std::uint32_t>& parts) const {
-    std::vector<std::uint8_t> has_rim(boundary_.n_triangles(), 0);
+  std::vector<std::uint8_t> parts_with_borders(const std::vector<std::uint32_t>& parts) const {
+    std::vector<std::uint8_t> has_border(boundary_.n_triangles(), 0);
     for_each_edge([&](HalfedgeId, TriangleId t, TriangleId beyond) {
-      if (!is_layered(t) && is_layered(beyond)) has_rim[parts[t.index()]] = 1;
+      if (!is_layered(t) && is_layered(beyond)) has_border[parts[t.index()]] = 1;
     });
-    return has_rim;
+    return has_border;
   }
 
  private:
@@ -91,7 +91,7 @@ class Corners {
   const TriMesh& boundary_;
   const Column<PatchId, std::uint8_t>& has_layer_;
   Topology topology_;
-  Column<VertexId, std::uint8_t> is_on_rim_;
+  Column<VertexId, std::uint8_t> is_on_border_;
 };
 
 }  // namespace
@@ -101,12 +101,12 @@ void split_at_corners(TriMesh& boundary, Column<PatchId, std::uint8_t>& has_laye
   const std::vector<std::uint8_t> is_split = corners_of.patches_with_corners();
   if (std::ranges::find(is_split, 1) == is_split.end()) return;
   const std::vector<std::uint32_t> part = corners_of.smooth_parts(is_split);
-  const std::vector<std::uint8_t> has_rim = corners_of.parts_with_rims(part);
+  const std::vector<std::uint8_t> has_border = corners_of.parts_with_borders(part);
   std::map<std::uint32_t, PatchId> own;  // the key is the lowest triangle of the part
   for (const TriangleId t : boundary.triangles.ids()) {
     const PatchId patch = boundary.triangle_patch[t];
     const std::uint32_t root = part[t.index()];
-    if (patch.index() >= is_split.size() || !is_split[patch.index()] || !has_rim[root]) continue;
+    if (patch.index() >= is_split.size() || !is_split[patch.index()] || !has_border[root]) continue;
     const auto [found, is_new] = own.emplace(root, PatchId());
     if (is_new) {
       found->second = boundary.patches.push_back(Patch(boundary.patches[patch]));

@@ -252,9 +252,9 @@ class SheetMaker {
       const double weight = std::min(1.0, way / k_spread);
       for (std::size_t i = 1, k = 0; i + 1 < n_lines(); ++i) {
         const double even = (1.0 - weight) * at[i] + weight * at.back() * static_cast<double>(i) / static_cast<double>(n_cells_);
-        const double wanted = std::clamp(even, at[i] - k_spread_slope * metres, at[i] + k_spread_slope * metres);
-        while (at[k + 1] < wanted) ++k;
-        points_[i][j] = row[k] + (wanted - at[k]) / (at[k + 1] - at[k]) * (row[k + 1] - row[k]);
+        const double target = std::clamp(even, at[i] - k_spread_slope * metres, at[i] + k_spread_slope * metres);
+        while (at[k + 1] < target) ++k;
+        points_[i][j] = row[k] + (target - at[k]) / (at[k + 1] - at[k]) * (row[k + 1] - row[k]);
       }
     }
   }
@@ -418,11 +418,12 @@ class SheetMaker {
       for (std::size_t j = 0; j <= n_rows(); ++j) {
         if (!is_used(i, j)) continue;
         std::array<VertexId, 2>& sides = sides_[i][j];
-        const bool is_foot = is_inside(i, j);
+        const bool is_base_vertex = is_inside(i, j);
         sides[0] = j == 0 ? edge_vertex(i) : wall_.points.push_back(point(i, j));
-        sides[1] = is_foot ? wall_.points.push_back(point(i, j)) : sides[0];
-        if (is_foot) made_.sheets.feet.push_back({sides, point(i, j), start_of(i), static_cast<int>(j), wake_.height_growth, chain_.is_blunt && j == 0});
-        else made_.sheets.rims.push_back(sides[0]);
+        sides[1] = is_base_vertex ? wall_.points.push_back(point(i, j)) : sides[0];
+        if (is_base_vertex)
+          made_.sheets.base_vertices.push_back({sides, point(i, j), start_of(i), static_cast<int>(j), wake_.height_growth, chain_.is_blunt && j == 0});
+        else made_.sheets.borders.push_back(sides[0]);
       }
   }
   /// Returns the vertices of both sides on the trailing edge; the existing vertex if no layers continue there. \pre row 0 is numbered before the other rows
@@ -603,8 +604,8 @@ SheetsOnWall add_wake_sheets(std::span<const WakeSheet> wakes, const Vec3& of_do
   if (n_chains == 0)
     throw_bad_argument(k_wake_attempt, "all sheets would lie in planes in which the wall ends", {},
                        "leave the wakes out, or request them behind the wing only");
-  std::ranges::sort(made.sheets.feet, {}, [](const DoubledSheets::Foot& foot) { return foot.sides[0]; });
-  sort_unique(made.sheets.rims);
+  std::ranges::sort(made.sheets.base_vertices, {}, [](const DoubledSheets::BaseVertex& base_vertex) { return base_vertex.sides[0]; });
+  sort_unique(made.sheets.borders);
   context.info("wake sheets behind " + std::to_string(n_chains) + " trailing edges: " + std::to_string(made.sources.size() / 2) + " triangles");
   return made;
 }

@@ -18,12 +18,12 @@
 namespace sterna::volmesh {
 namespace {
 
-constexpr double k_wanted_last = 0.5;          ///< height of the last cell, as a fraction of the height of a regular tetrahedron on the triangle
+constexpr double k_target_last = 0.5;          ///< height of the last cell, as a fraction of the height of a regular tetrahedron on the triangle
 constexpr double k_area_share = 0.9;           ///< fraction of the wall area on which this height must be reached
 constexpr int k_most_automatic_layers = 1000;  ///< upper limit of the option layers
 constexpr int k_too_many = k_most_automatic_layers + 1;
 
-struct WantedLayers {
+struct TargetLayers {
   int layers = 0;
   double area = 0.0;
 };
@@ -36,41 +36,41 @@ int layers_to_height(double h0, double growth, double last) {
 }
 
 /// Returns the smallest number of layers that is sufficient on k_area_share of the area.
-int enough(std::vector<WantedLayers>& wanted) {
-  std::ranges::sort(wanted, {}, [](const WantedLayers& w) { return std::pair(w.layers, w.area); });
+int enough(std::vector<TargetLayers>& target) {
+  std::ranges::sort(target, {}, [](const TargetLayers& w) { return std::pair(w.layers, w.area); });
   double all = 0.0, below = 0.0;
-  for (const WantedLayers& w : wanted) all += w.area;
-  for (const WantedLayers& w : wanted)
+  for (const TargetLayers& w : target) all += w.area;
+  for (const TargetLayers& w : target)
     if (below += w.area; below >= k_area_share * all) return w.layers;
-  return wanted.back().layers;
+  return target.back().layers;
 }
 
 }  // namespace
 
 int automatic_layers(const TriMesh& surface, const MeshCase& options, const RunContext& context) {
-  Column<PatchId, PatchLayers> asked;
-  for (const Patch& patch : surface.patches) asked.push_back(request_of(with_kind(patch, options.patches), options.envelope, options.patches));
+  Column<PatchId, PatchLayers> requested;
+  for (const Patch& patch : surface.patches) requested.push_back(request_of(with_kind(patch, options.patches), options.envelope, options.patches));
   const auto is_open = [](const PatchLayers& patch) { return is_automatic(patch.layers) && !patch.has_own_height && !is_automatic(patch.first_height); };
-  std::vector<WantedLayers> of_triangle(surface.n_triangles());
+  std::vector<TargetLayers> of_triangle(surface.n_triangles());
   parallel_for(context, surface.n_triangles(), [&](std::size_t i) {
     const TriangleId t(i);
-    const PatchLayers& patch = asked[surface.triangle_patch[t]];
+    const PatchLayers& patch = requested[surface.triangle_patch[t]];
     if (!is_open(patch)) return;
     const std::array<Point, 3> p = corners(surface, t);
     const double area = 0.5 * norm(cross(p[1] - p[0], p[2] - p[0])), edge = (distance(p[0], p[1]) + distance(p[1], p[2]) + distance(p[2], p[0])) / 3.0;
     double h0 = patch.first_height;
     if (options.first_heights && !patch.has_own_first_height)
       h0 = std::max({options.first_heights->at(p[0]), options.first_heights->at(p[1]), options.first_heights->at(p[2])});
-    of_triangle[i] = {layers_to_height(h0, patch.max_growth, k_wanted_last * k_regular_height * layer_edge_of(std::sqrt(k_equilateral * area), edge)), area};
+    of_triangle[i] = {layers_to_height(h0, patch.max_growth, k_target_last * k_regular_height * layer_edge_of(std::sqrt(k_equilateral * area), edge)), area};
   });
-  std::map<std::pair<double, double>, std::vector<WantedLayers>> groups;  // groups of walls, keyed by first height and growth
+  std::map<std::pair<double, double>, std::vector<TargetLayers>> groups;  // groups of walls, keyed by first height and growth
   for (const TriangleId t : surface.triangles.ids())
-    if (const PatchLayers& patch = asked[surface.triangle_patch[t]]; is_open(patch))
+    if (const PatchLayers& patch = requested[surface.triangle_patch[t]]; is_open(patch))
       groups[{patch.first_height, patch.max_growth}].push_back(of_triangle[t.index()]);
   int layers = 0;
-  for (auto& [request, wanted] : groups) {
+  for (auto& [request, target] : groups) {
     const auto [first_height, growth] = request;
-    layers = std::max(layers, enough(wanted));
+    layers = std::max(layers, enough(target));
     if (layers == k_too_many)
       throw_bad_argument("choosing the number of layers",
                          print_text("%d layers of first height %.6g m that grow by %.6g do not reach half of the height of a regular tetrahedron on the wall",
@@ -79,7 +79,7 @@ int automatic_layers(const TriMesh& surface, const MeshCase& options, const RunC
   }
   if (layers > 0) return layers;
   bool has_walls = false;
-  for (const PatchLayers& patch : asked) {
+  for (const PatchLayers& patch : requested) {
     layers = std::max(layers, patch.layers);
     has_walls = has_walls || patch.has_own_layers;
   }

@@ -25,9 +25,9 @@ BoxHierarchy::BoxHierarchy(const TriMesh& mesh, const RunContext& context) {
 }
 
 void FittedBoxes::fit(const BoxHierarchy& tree, const RunContext& context) {
-  place_role.assign(tree.item_at.size(), k_both_roles);
+  location_role.assign(tree.item_at.size(), k_both_roles);
   spread_roles(tree, true, context);
-  place_role.clear();
+  location_role.clear();
   node_role.clear();
 }
 
@@ -40,11 +40,11 @@ void FittedBoxes::spread_roles(const BoxHierarchy& tree, bool refit, const RunCo
       const auto [first, count] = tree.nodes[begin + i];
       Role role = k_no_role;
       if (count == 0) role = node_role[first] | node_role[first + 1];
-      for (std::uint32_t j = first; j < first + count; ++j) role |= place_role[j];
+      for (std::uint32_t j = first; j < first + count; ++j) role |= location_role[j];
       node_role[begin + i] = role;
       if (!refit || role == k_no_role) return;
       RoundedBox box;
-      for (std::uint32_t j = first; j < first + count; ++j) box.add(place[j]);
+      for (std::uint32_t j = first; j < first + count; ++j) box.add(location[j]);
       if (count == 0) {
         box.add(node[first]);
         box.add(node[first + 1]);
@@ -68,7 +68,7 @@ void find_overlaps(const BoxHierarchy& tree, const FittedBoxes& a, const FittedB
     if (!overlaps(a.node[index], b.node[index])) continue;
     const auto [first, count] = tree.nodes[index];
     for (std::uint32_t j = first; j < first + count; ++j)
-      if (overlaps(a.place[j], b.place[j])) found.push_back(tree.item_at[j]);
+      if (overlaps(a.location[j], b.location[j])) found.push_back(tree.item_at[j]);
     if (count > 0) continue;
     stack[n++] = first + 1;
     stack[n++] = first;

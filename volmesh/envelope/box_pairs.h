@@ -58,21 +58,21 @@ struct BoxHierarchy {
 /// Role of an item in a search. A pair is tested if one item is a seeker and the other a partner.
 using Role = std::uint8_t;
 inline constexpr Role k_no_role = 0, k_seeker = 1, k_partner = 2, k_both_roles = 3;
-inline bool is_wanted(Role a, Role b) { return (((a & k_seeker) && (b & k_partner)) || ((a & k_partner) && (b & k_seeker))); }
+inline bool is_needed(Role a, Role b) { return (((a & k_seeker) && (b & k_partner)) || ((a & k_partner) && (b & k_seeker))); }
 
 /// Boxes of the positions and nodes of a hierarchy, and their roles in the next search. There is either one common role, or one role for each position and
 /// node.
 struct FittedBoxes {
-  std::vector<RoundedBox> place, node;
+  std::vector<RoundedBox> location, node;
   Role common_role = k_no_role;
-  std::vector<Role> place_role, node_role;  ///< empty: common_role applies; the role of a node combines the roles of its positions
+  std::vector<Role> location_role, node_role;  ///< empty: common_role applies; the role of a node combines the roles of its positions
 
   /// Computes the boxes of all nodes from the boxes of the positions.
   void fit(const BoxHierarchy& tree, const RunContext& context);
   /// Computes the roles of the nodes from the roles of the positions. With `refit`, also computes the boxes of nodes that have a role.
   void spread_roles(const BoxHierarchy& tree, bool refit, const RunContext& context);
 
-  Role role_of_place(std::size_t i) const { return place_role.empty() ? common_role : place_role[i]; }
+  Role role_of_location(std::size_t i) const { return location_role.empty() ? common_role : location_role[i]; }
   Role role_of_node(std::size_t i) const { return node_role.empty() ? common_role : node_role[i]; }
 };
 
@@ -92,7 +92,7 @@ using NodePair = std::array<std::uint32_t, 2>;
 std::vector<NodePair> split_search(const SearchSide& a, const SearchSide& b);
 /// Returns false if the pair of nodes contains no pair of positions to test.
 inline bool is_worthwhile(const SearchSide& a, const SearchSide& b, const NodePair& pair) {
-  return is_wanted(a.boxes->role_of_node(pair[0]), b.boxes->role_of_node(pair[1])) && overlap(a.boxes->node[pair[0]], b.boxes->node[pair[1]]);
+  return is_needed(a.boxes->role_of_node(pair[0]), b.boxes->role_of_node(pair[1])) && overlap(a.boxes->node[pair[0]], b.boxes->node[pair[1]]);
 }
 /// Appends the pairs of children into which a pair is split. Returns false if both nodes are leaves.
 inline bool split_pair(const SearchSide& a, const SearchSide& b, const NodePair& pair, std::vector<NodePair>& children) {
@@ -123,9 +123,10 @@ Partial search_pairs(const SearchSide& a, const SearchSide& b, const Test& test,
     const auto [first_b, count_b] = b.tree->nodes[pair[1]];
     const bool is_diagonal = is_same && pair[0] == pair[1];
     for (std::uint32_t i = first_a; i < first_a + count_a; ++i) {
-      const Role role = a.boxes->role_of_place(i);
+      const Role role = a.boxes->role_of_location(i);
       for (std::uint32_t j = is_diagonal ? i : first_b; j < first_b + count_b; ++j) {
-        if (is_wanted(role, b.boxes->role_of_place(j)) && overlap(a.boxes->place[i], b.boxes->place[j])) test(a.tree->item_at[i], b.tree->item_at[j], partial);
+        if (is_needed(role, b.boxes->role_of_location(j)) && overlap(a.boxes->location[i], b.boxes->location[j]))
+          test(a.tree->item_at[i], b.tree->item_at[j], partial);
       }
     }
   };

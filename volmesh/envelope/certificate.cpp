@@ -87,7 +87,7 @@ std::string describe(const BoundaryCrossing& pair) {
 std::string in_short(const WorstElement& worst) {
   char number[32];
   std::snprintf(number, sizeof number, "%.3g", worst.quality);
-  return "worst " + std::string(number) + " at " + format_point(worst.place);
+  return "worst " + std::string(number) + " at " + format_point(worst.location);
 }
 
 }  // namespace
@@ -99,11 +99,11 @@ std::int64_t require_clear_input(Collider& collider, const RunContext& context) 
   ErrorInfo info{.code = ErrorCode::self_intersection,
                  .attempted = "checking wall and outer boundary before the layer grows",
                  .problem = std::to_string(crossings.size()) + " pairs of triangles intersect",
-                 .n_places = static_cast<std::int64_t>(crossings.size()),
+                 .n_locations = static_cast<std::int64_t>(crossings.size()),
                  .hint = is_outer ? "the outer boundary must enclose the wall with a margin: make the outer boundary larger"
                                   : "the wall must be free of self-intersections: use `sterna info` and the stitching options to find and repair them"};
-  for (std::size_t i = 0; i < std::min(crossings.size(), k_max_places); ++i)
-    info.places.push_back({centre(collider.corners_of(crossings[i][0])), describe(crossings[i])});
+  for (std::size_t i = 0; i < std::min(crossings.size(), k_max_locations); ++i)
+    info.locations.push_back({centre(collider.corners_of(crossings[i][0])), describe(crossings[i])});
   for (const BoundaryCrossing& pair : crossings) {
     for (const BoundaryTriangle& triangle : pair) {
       const std::uint32_t next = static_cast<std::uint32_t>(info.geometry.points.size());
@@ -154,8 +154,8 @@ void require_proved(const EnvelopeCertificate& certificate) {
                .problem = std::to_string(certificate.n_crossings) + " crossing pairs of boundary triangles, " + std::to_string(certificate.n_swallowings) +
                           " surfaces within a layer, " + std::to_string(certificate.n_invalid_macro_elements) + " invalid macro-elements, " +
                           std::to_string(certificate.n_invalid_layer_cells) + " invalid cells of the layer",
-               .places = {{certificate.worst_macro_element.place, "worst macro-element: " + certificate.worst_macro_element.what},
-                          {certificate.worst_layer_cell.place, "worst cell: " + certificate.worst_layer_cell.what}},
+               .locations = {{certificate.worst_macro_element.location, "worst macro-element: " + certificate.worst_macro_element.what},
+                             {certificate.worst_layer_cell.location, "worst cell: " + certificate.worst_layer_cell.what}},
                .hint = "report this surface"});
 }
 

@@ -12,7 +12,7 @@ namespace sterna::volmesh {
 /// Quality of the worst element: 1 for a right prism or the corner of a cube. It is positive if and only if the element is valid (except for rounding).
 struct WorstElement {
   double quality = 1.0;
-  Point place;
+  Point location;
   std::string what;  ///< type of the element, and its wall triangle
 };
 

@@ -11,9 +11,9 @@ constexpr int k_share_bisections = 10;  ///< number of halvings; the result is w
 
 FittedBoxes fixed_boxes(const TriMesh& mesh, const BoxHierarchy& tree, const RunContext& context) {
   FittedBoxes boxes;
-  boxes.place.resize(tree.item_at.size());
-  parallel_for(context, boxes.place.size(), [&](std::size_t i) {
-    for (const Point& p : corners(mesh, TriangleId(tree.item_at[i]))) boxes.place[i].add(p);
+  boxes.location.resize(tree.item_at.size());
+  parallel_for(context, boxes.location.size(), [&](std::size_t i) {
+    for (const Point& p : corners(mesh, TriangleId(tree.item_at[i]))) boxes.location[i].add(p);
   });
   boxes.fit(tree, context);
   return boxes;
@@ -67,8 +67,8 @@ Collider::Collider(Borrowed<const LayerBase> base, const TriMesh* outer, const R
   points_.resize(2 * n + (outer ? outer->n_vertices() : 0));
   parallel_for(context, n, [&](std::size_t i) { points_[i] = points_[n + i] = base->wall.points[VertexId(i)]; });
   for (std::size_t h = 0; base->topology.n_boundary_halfedges() > 0 && h < base->topology.n_halfedges(); ++h)
-    if (base->topology.is_boundary(HalfedgeId(h))) rim_.push_back(HalfedgeId(h));
-  top_.place.resize(tree_.item_at.size());
+    if (base->topology.is_boundary(HalfedgeId(h))) border_.push_back(HalfedgeId(h));
+  top_.location.resize(tree_.item_at.size());
   Components components = connected_components(base->wall, base->topology);
   component_ = std::move(components.component);
   n_components_ = components.count;
@@ -93,7 +93,7 @@ Collider::Corners Collider::points_of(const BoundaryTriangle& triangle) const {
     const TriangleVertices& v = base_.wall.triangles[TriangleId(triangle.index)];
     return {top_point(v[0]), top_point(v[1]), top_point(v[2])};
   }
-  const HalfedgeId h = rim_[triangle.index / 2];
+  const HalfedgeId h = border_[triangle.index / 2];
   const VertexId a = base_.topology.from(h), b = base_.topology.to(h);
   if (triangle.index % 2 == 0) return {a.value(), b.value(), top_point(b)};
   return {a.value(), top_point(b), top_point(a)};
@@ -115,10 +115,10 @@ void Collider::for_each_moving(TriangleId t, const F& f) const {
   const TriangleVertices& v = base_.wall.triangles[t];
   if (is_down(v[0]) && is_down(v[1]) && is_down(v[2])) return;
   f(BoundaryTriangle{BoundaryPart::top, t.value()});
-  if (rim_.empty()) return;
-  for (auto h = std::lower_bound(rim_.begin(), rim_.end(), halfedge(t, 0)); h != rim_.end() && triangle_of(*h) == t; ++h) {
+  if (border_.empty()) return;
+  for (auto h = std::lower_bound(border_.begin(), border_.end(), halfedge(t, 0)); h != border_.end() && triangle_of(*h) == t; ++h) {
     for (std::uint32_t k = 0; k < 2; ++k) {
-      const BoundaryTriangle side{BoundaryPart::side, static_cast<std::uint32_t>(2 * (h - rim_.begin())) + k};
+      const BoundaryTriangle side{BoundaryPart::side, static_cast<std::uint32_t>(2 * (h - border_.begin())) + k};
       if (has_distinct_corners(points_of(side))) f(side);
     }
   }
@@ -127,18 +127,18 @@ void Collider::for_each_moving(TriangleId t, const F& f) const {
 /// Sets the roles of the positions in the top's hierarchy from the roles of the vertices.
 template <class RoleOf>
 void Collider::assign_roles(const RoleOf& role_of, bool refit, const RunContext& context) {
-  top_.place_role.resize(tree_.item_at.size());
+  top_.location_role.resize(tree_.item_at.size());
   parallel_for(context, tree_.item_at.size(), [&](std::size_t i) {
     const TriangleId t(tree_.item_at[i]);
     const TriangleVertices& v = base_.wall.triangles[t];
     const Role role = role_of(v[0]) | role_of(v[1]) | role_of(v[2]);
-    top_.place_role[i] = role;
+    top_.location_role[i] = role;
     if (!refit || role == k_no_role) return;
     RoundedBox box;
     for_each_moving(t, [&](const BoundaryTriangle& triangle) {
       for (const std::uint32_t p : points_of(triangle)) box.add(points_[p]);
     });
-    top_.place[i] = box;
+    top_.location[i] = box;
   });
   top_.spread_roles(tree_, refit, context);
 }
@@ -205,9 +205,9 @@ std::vector<BoundaryCrossing> Collider::crossings(const RunContext& context, con
   return std::move(found.pairs);
 }
 
-bool Collider::has_fan_on(TriangleId wall_triangle, std::uint32_t outer_triangle) const {
+bool Collider::has_multi_normal_on(TriangleId wall_triangle, std::uint32_t outer_triangle) const {
   return base_.ridges && links_ &&
-         std::ranges::any_of(base_.wall.triangles[wall_triangle], [&](VertexId v) { return base_.fan_of(v) != nullptr && holds(outer_triangle, v); });
+         std::ranges::any_of(base_.wall.triangles[wall_triangle], [&](VertexId v) { return base_.multi_normal_of(v) != nullptr && holds(outer_triangle, v); });
 }
 
 std::vector<BoundaryCrossing> Collider::fixed_crossings(const RunContext& context) {
@@ -219,7 +219,7 @@ std::vector<BoundaryCrossing> Collider::fixed_crossings(const RunContext& contex
           if (part_a == part_b && a == b) return;
           const BoundaryTriangle first{part_a, a}, second{part_b, b};
           ++results.n_tested;
-          if (part_a == BoundaryPart::wall && part_b == BoundaryPart::outer && has_fan_on(TriangleId(a), b)) return;
+          if (part_a == BoundaryPart::wall && part_b == BoundaryPart::outer && has_multi_normal_on(TriangleId(a), b)) return;
           if (triangles_cross(points_, points_of(first), points_of(second))) results.pairs.push_back({std::min(first, second), std::max(first, second)});
         },
         context);
@@ -280,7 +280,7 @@ std::vector<VertexId> Collider::moving_vertices(const BoundaryTriangle& triangle
     return {v[0], v[1], v[2]};
   }
   if (triangle.part != BoundaryPart::side) return {};
-  const HalfedgeId h = rim_[triangle.index / 2];
+  const HalfedgeId h = border_[triangle.index / 2];
   return {base_.topology.from(h), base_.topology.to(h)};
 }
 

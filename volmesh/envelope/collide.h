@@ -27,7 +27,7 @@ using BoundaryCrossing = std::array<BoundaryTriangle, 2>;
 
 /// A point of one part of the boundary that lies within a macro-element of another part's layer.
 struct Swallowing {
-  Point place;
+  Point location;
   std::vector<VertexId> vertices;  ///< vertices whose heights cause the overlap
   double clear_share = 0.0;        ///< largest fraction of these heights, to 0.1 %, at which the point is outside
 };
@@ -93,7 +93,7 @@ class Collider {
   bool is_held(const BoundaryTriangle& moving, std::uint32_t outer_triangle) const;
   /// Returns true if a wall triangle has a growth line of an opened ridge in the surface of an outer triangle that is not re-meshed. The two triangles then
   /// touch.
-  bool has_fan_on(TriangleId wall_triangle, std::uint32_t outer_triangle) const;
+  bool has_multi_normal_on(TriangleId wall_triangle, std::uint32_t outer_triangle) const;
   template <class F>
   void for_each_moving(TriangleId t, const F& f) const;
   template <class RoleOf>
@@ -104,8 +104,8 @@ class Collider {
   const OuterLinks* links_;
   std::vector<Vec3> points_;  ///< points of the wall, then of the top, then of the outer boundary
   Column<VertexId, std::uint8_t> is_collapsed_;
-  std::vector<HalfedgeId> rim_;  ///< boundary half-edges of the wall, ascending
-  BoxHierarchy tree_;            ///< hierarchy over the wall, which is also used for the boxes of the top
+  std::vector<HalfedgeId> border_;  ///< boundary half-edges of the wall, ascending
+  BoxHierarchy tree_;               ///< hierarchy over the wall, which is also used for the boxes of the top
   BoxHierarchy outer_tree_;
   FittedBoxes wall_, top_, outer_boxes_;
   Column<TriangleId, std::uint32_t> component_;  ///< connected part of the wall to which each triangle belongs

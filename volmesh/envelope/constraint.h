@@ -51,9 +51,9 @@ class ConstraintPlane final : public ConstraintSurface {
 };
 
 /// One side of the plane of an actuator disc. `normal` points away from the disc, and the body continues beyond the plane.
-class ConstraintSheet final : public ConstraintSurface {
+class ConstraintBaffle final : public ConstraintSurface {
  public:
-  ConstraintSheet(const Point& point, const Vec3& normal) : plane_(point, normal) {}
+  ConstraintBaffle(const Point& point, const Vec3& normal) : plane_(point, normal) {}
   Point closest(const Point& p) const override { return plane_.closest(p); }
   Vec3 normal(const Point& p) const override { return plane_.normal(p); }
   double inside_distance(const Point& p) const override { return plane_.inside_distance(p); }

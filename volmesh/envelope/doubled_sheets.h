@@ -14,7 +14,7 @@ namespace sterna::volmesh {
 /// thin body. In the finished mesh they coincide with the base vertex again (layer/close_wakes.h). On the free edges of a sheet both sides share vertices, and
 /// the growth lines of these vertices have no height.
 struct DoubledSheets {
-  struct Foot {
+  struct BaseVertex {
     /// Left of the trailing edge: on the edge itself a vertex of the given wall; right of the trailing edge: always an added vertex.
     std::array<VertexId, 2> sides;
     Point point;                         ///< m
@@ -24,9 +24,9 @@ struct DoubledSheets {
     bool is_on_base = false;             ///< true on the edge of a blunt base: one side is a corner there, and may have a lower layer
   };
   std::size_t n_given_vertices = 0, n_given_triangles = 0;  ///< numbers of the wall before the sheets; vertices and triangles added by sheets follow
-  std::vector<Foot> feet;                                   ///< sorted by their first vertex
-  std::vector<VertexId> rims;  ///< vertices on the free edges of the sheets, and the end vertices of the opened edges on the wall; ascending
-  bool is_empty() const { return feet.empty(); }
+  std::vector<BaseVertex> base_vertices;                    ///< sorted by their first vertex
+  std::vector<VertexId> borders;  ///< vertices on the free edges of the sheets, and the end vertices of the opened edges on the wall; ascending
+  bool is_empty() const { return base_vertices.empty(); }
 };
 
 }  // namespace sterna::volmesh

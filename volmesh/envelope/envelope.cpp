@@ -53,14 +53,14 @@ double EnvelopeScale::unlimited_height(VertexId v) const {
   return is_automatic(given) ? height_by_edge(first_step(v), base_->layer_edge[v], max_growth(v), n(v), has_common_growth_) : given;
 }
 
-double EnvelopeScale::asked_height(VertexId v) const { return std::min(unlimited_height(v), max_thickness(v)); }
+double EnvelopeScale::requested_height(VertexId v) const { return std::min(unlimited_height(v), max_thickness(v)); }
 
 double EnvelopeScale::h_min(VertexId v) const { return k_min_height_share * n(v) * h0(v); }
 
 EnvelopeScale scale_of(Borrowed<const LayerBase> base, const EnvelopeOptions& options) { return {base, options}; }
 
 double normal_height(const LayerBase& base, const Envelope& envelope, VertexId v) {
-  if (base.fan_of(v) != nullptr) return envelope.height[v];
+  if (base.multi_normal_of(v) != nullptr) return envelope.height[v];
   return envelope.height[v] * std::max(dot(envelope.direction[v], base.vertex_normal[v]), k_min_normal_share);
 }
 

@@ -80,12 +80,12 @@ class EnvelopeScale {
   /// Returns the growth of the cells along the growth line at v.
   LineGrowth growth(VertexId v) const {
     if (!has_common_growth_) return {.h0 = h0(v)};
-    return {.h0 = first_step(v), .common = max_growth(v), .edge = base_->longest_edge[v], .target = asked_height(v)};
+    return {.h0 = first_step(v), .common = max_growth(v), .edge = base_->longest_edge[v], .target = requested_height(v)};
   }
   /// Returns the given total height, or the height of eq. (1), in metres.
   double unlimited_height(VertexId v) const;
   /// Returns the target total height in metres: unlimited_height(), but at most max_thickness().
-  double asked_height(VertexId v) const;
+  double requested_height(VertexId v) const;
   bool has_common_growth() const { return has_common_growth_; }
   /// Returns the smallest height in metres along the normal at which the first of n cells has its target height, minus the tolerance of 2 % of gate G11.
   double room_for_first_cell(VertexId v, int n) const {

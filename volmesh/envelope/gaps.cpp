@@ -138,11 +138,11 @@ std::vector<WallGap> share_gaps(const LayerBase& base, const EnvelopeOptions& op
       },
       256);
   if (hits.empty()) return hits;
-  const Column<VertexId, double> asked = envelope.height;
+  const Column<VertexId, double> requested = envelope.height;
   std::vector<VertexId> lowered;
   const auto limit = [&](VertexId v, double share) {
-    envelope.cap[v] = std::min(envelope.cap[v], share * asked[v]);
-    lower(envelope, v, share * asked[v], HeightLimit::gap, scale);
+    envelope.cap[v] = std::min(envelope.cap[v], share * requested[v]);
+    lower(envelope, v, share * requested[v], HeightLimit::gap, scale);
     lowered.push_back(v);
   };
   for (const WallGap& hit : hits) {

@@ -24,17 +24,17 @@ constexpr double k_outer_share = 0.5;   ///< fraction of the distance that is ke
 constexpr std::size_t k_distance_chunk = 256;
 
 /// A vertex, and the height in metres at which the top keeps its distance.
-using Wanted = std::pair<VertexId, double>;
+using TopHeight = std::pair<VertexId, double>;
 
-class NearPlaces {
+class NearLocations {
  public:
-  NearPlaces(const LayerBase& base, const Collider& collider, const Envelope& envelope, const RunContext& context)
+  NearLocations(const LayerBase& base, const Collider& collider, const Envelope& envelope, const RunContext& context)
       : base_(base), collider_(collider), envelope_(envelope), edge_(base.wall.n_vertices()) {
     parallel_for(context, edge_.size(), [&](std::size_t i) { edge_[VertexId(i)] = envelope_edge(base, envelope, VertexId(i)); });
   }
 
   /// Appends the target heights for v's top point and for the opposing parts of the layer. `buffer` is scratch memory.
-  void find(VertexId v, std::vector<std::uint32_t>& buffer, std::vector<Wanted>& wanted) const {
+  void find(VertexId v, std::vector<std::uint32_t>& buffer, std::vector<TopHeight>& target) const {
     if (envelope_.is_collapsed(v)) return;
     const double kept = k_kept_edges * edge_[v];
     Box box;
@@ -43,11 +43,11 @@ class NearPlaces {
     box.add(p + Vec3{kept, kept, kept});
     buffer.clear();
     collider_.find_cells(box, buffer);
-    for (const std::uint32_t item : buffer) against_top(v, p, kept, TriangleId(item), wanted);
+    for (const std::uint32_t item : buffer) against_top(v, p, kept, TriangleId(item), target);
     buffer.clear();
     if (collider_.outer()) collider_.find_outer(box, buffer);
     for (const std::uint32_t item : buffer)
-      if (!collider_.holds(item, v)) against_fixed(v, p, k_outer_share * kept, corners(*collider_.outer(), TriangleId(item)), wanted);
+      if (!collider_.holds(item, v)) against_fixed(v, p, k_outer_share * kept, corners(*collider_.outer(), TriangleId(item)), target);
   }
 
  private:
@@ -63,7 +63,7 @@ class NearPlaces {
     if (cosine < k_facing_cosine || back < k_facing_cosine) return {};
     return Near{length, cosine, back};
   }
-  void against_top(VertexId v, const Point& p, double kept, TriangleId t, std::vector<Wanted>& wanted) const {
+  void against_top(VertexId v, const Point& p, double kept, TriangleId t, std::vector<TopHeight>& target) const {
     const TriangleVertices& w = base_.wall.triangles[t];
     if (is_beside(v, w)) return;
     const double gap = norm(nearest_on_triangle(base_.wall.points[v], corners(base_.wall, t)) - base_.wall.points[v]);
@@ -73,18 +73,18 @@ class NearPlaces {
     if (!found) return;
     const bool has_height = std::ranges::any_of(w, [&](VertexId u) { return !envelope_.is_collapsed(u); });
     const double missing = (has_height ? 0.5 : 1.0) * (kept - found->distance);
-    lower_by(v, missing / found->cosine, wanted);
-    for (const VertexId u : w) lower_by(u, missing / found->back, wanted);
+    lower_by(v, missing / found->cosine, target);
+    for (const VertexId u : w) lower_by(u, missing / found->back, target);
   }
-  void against_fixed(VertexId v, const Point& p, double kept, const std::array<Point, 3>& t, std::vector<Wanted>& wanted) const {
+  void against_fixed(VertexId v, const Point& p, double kept, const std::array<Point, 3>& t, std::vector<TopHeight>& target) const {
     // Triangles of the outer boundary may point into the fluid or out of it.
     std::optional<Near> found = near(v, p, kept, t, 1.0);
     if (!found) found = near(v, p, kept, t, -1.0);
-    if (found) lower_by(v, (kept - found->distance) / found->cosine, wanted);
+    if (found) lower_by(v, (kept - found->distance) / found->cosine, target);
   }
-  void lower_by(VertexId v, double depth, std::vector<Wanted>& wanted) const {
+  void lower_by(VertexId v, double depth, std::vector<TopHeight>& target) const {
     const double height = envelope_.height[v];
-    if (height > 0.0) wanted.emplace_back(v, std::max(height - depth, k_least_share * height));
+    if (height > 0.0) target.emplace_back(v, std::max(height - depth, k_least_share * height));
   }
   bool is_beside(VertexId v, const TriangleVertices& t) const {
     const auto around = base_.topology.neighbours(v);
@@ -103,18 +103,18 @@ void keep_distance(const LayerBase& base, const EnvelopeOptions& options, Collid
   const EnvelopeScale scale = scale_of(base, options);
   for (int sweep = 0; sweep < k_sweeps; ++sweep) {
     collider.move_top(envelope, context);
-    const NearPlaces places(base, collider, envelope, context);
-    std::vector<Wanted> wanted = parallel_collect<Wanted>(
+    const NearLocations locations(base, collider, envelope, context);
+    std::vector<TopHeight> target = parallel_collect<TopHeight>(
         context, base.wall.n_vertices(),
-        [&](std::size_t begin, std::size_t end, std::vector<Wanted>& list) {
+        [&](std::size_t begin, std::size_t end, std::vector<TopHeight>& list) {
           std::vector<std::uint32_t> buffer;
-          for (std::size_t i = begin; i < end; ++i) places.find(VertexId(i), buffer, list);
+          for (std::size_t i = begin; i < end; ++i) locations.find(VertexId(i), buffer, list);
         },
         k_distance_chunk);
-    if (wanted.empty()) return;
-    std::ranges::sort(wanted);
+    if (target.empty()) return;
+    std::ranges::sort(target);
     std::vector<VertexId> lowered;
-    for (const auto& [v, height] : wanted) {
+    for (const auto& [v, height] : target) {
       if (!lowered.empty() && lowered.back() == v) continue;  // only the lowest height of each vertex is used, which comes first
       lowered.push_back(v);
       lower(envelope, v, height, HeightLimit::gap, scale);

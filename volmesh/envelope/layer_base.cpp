@@ -115,7 +115,7 @@ void LayerBase::set_layer_edges(const RunContext& context) {
     if (n_triangles == 0.0) return;
     layer_edge[v] = layer_edge_of(std::sqrt(k_equilateral * 3.0 * vertex_area[v] / n_triangles), mean_edge[v]);
   });
-  if (ridges != nullptr) even_out_fans();
+  if (ridges != nullptr) even_out_multi_normals();
   std::vector<double> own(n), next(n);
   for (std::size_t i = 0; i < n; ++i) own[i] = std::log(std::max(layer_edge[VertexId(i)], std::numeric_limits<double>::min()));
   for (int sweep = 0; sweep < k_edge_sweeps; ++sweep) {
@@ -123,7 +123,7 @@ void LayerBase::set_layer_edges(const RunContext& context) {
       const VertexId v(i);
       double sum = 0.0, weights = 0.0;
       for (const VertexId other : topology.neighbours(v)) {
-        if (have_one_foot(v, other)) continue;
+        if (share_base_vertex(v, other)) continue;
         const double weight = mirror_weight(v, other);
         sum += weight * own[other.index()];
         weights += weight;
@@ -136,13 +136,13 @@ void LayerBase::set_layer_edges(const RunContext& context) {
 }
 
 /// Gives growth lines with a common ridge base vertex the edges of the given triangles around that vertex.
-void LayerBase::even_out_fans() {
+void LayerBase::even_out_multi_normals() {
   struct Sums {
     double area = 0.0, n_triangles = 0.0, edges = 0.0, n_lines = 0.0;
   };
-  Column<VertexId, Sums> of_foot(ridges->n_given_vertices);
+  Column<VertexId, Sums> of_base(ridges->n_given_vertices);
   for (const VertexId v : wall.points.ids()) {
-    Sums& sums = of_foot[ridges->foot[v]];
+    Sums& sums = of_base[ridges->base_vertex[v]];
     for (const HalfedgeId h : topology.outgoing(v)) {
       if (is_virtual(triangle_of(h))) continue;
       sums.area += area[triangle_of(h)];
@@ -152,7 +152,7 @@ void LayerBase::even_out_fans() {
     sums.n_lines += mean_edge[v] > 0.0 ? 1.0 : 0.0;
   }
   for (const VertexId v : wall.points.ids()) {
-    const Sums& sums = of_foot[ridges->foot[v]];
+    const Sums& sums = of_base[ridges->base_vertex[v]];
     const bool is_end = std::ranges::binary_search(ridges->end_vertices, v);
     if ((sums.n_lines == 1.0 && !is_end) || sums.n_triangles == 0.0) continue;
     mean_edge[v] = sums.edges / sums.n_lines;
@@ -179,7 +179,7 @@ void LayerBase::derive(std::span<const VertexId> alike) {
     }
     vertex_area[v] = third;
     for (const VertexId other : topology.neighbours(v)) {
-      if (have_one_foot(v, other)) continue;
+      if (share_base_vertex(v, other)) continue;
       const double weight = mirror_weight(v, other);
       const double own = distance(p, wall.points[other]);
       length += weight * own;
@@ -245,15 +245,15 @@ void LayerBase::let_grow_alike(const std::vector<std::array<VertexId, 2>>& partn
   }
 }
 
-const OpenedRidges::Foot* LayerBase::fan_of(VertexId v) const {
+const OpenedRidges::BaseVertex* LayerBase::multi_normal_of(VertexId v) const {
   if (ridges == nullptr) return nullptr;
-  const auto fan = std::ranges::lower_bound(ridges->feet, ridges->foot[v], {}, &OpenedRidges::Foot::vertex);
-  return fan != ridges->feet.end() && fan->vertex == ridges->foot[v] ? &*fan : nullptr;
+  const auto multi_normal = std::ranges::lower_bound(ridges->base_vertices, ridges->base_vertex[v], {}, &OpenedRidges::BaseVertex::vertex);
+  return multi_normal != ridges->base_vertices.end() && multi_normal->vertex == ridges->base_vertex[v] ? &*multi_normal : nullptr;
 }
 
 double LayerBase::cone_visibility(VertexId v) const {
-  const OpenedRidges::Foot* const fan = fan_of(v);
-  return fan != nullptr && std::isfinite(fan->to_end) ? std::min(visibility[v], fan->visibility) : visibility[v];
+  const OpenedRidges::BaseVertex* const multi_normal = multi_normal_of(v);
+  return multi_normal != nullptr && std::isfinite(multi_normal->to_end) ? std::min(visibility[v], multi_normal->visibility) : visibility[v];
 }
 
 double LayerBase::mirror_weight(VertexId v, VertexId other) const {

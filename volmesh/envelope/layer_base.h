@@ -59,8 +59,8 @@ struct LayerBase {
 
   /// Vertices on free edges of wake sheets, ascending. Their growth lines have no height, but the layer need not be thin beside them, because fluid surrounds
   /// them.
-  std::vector<VertexId> sheet_rims;
-  bool is_sheet_rim(VertexId v) const { return std::binary_search(sheet_rims.begin(), sheet_rims.end(), v); }
+  std::vector<VertexId> sheet_borders;
+  bool is_sheet_border(VertexId v) const { return std::binary_search(sheet_borders.begin(), sheet_borders.end(), v); }
 
   LayerDemand demand;  ///< layer settings of patches that replace the options (patch_layers.h); empty by default
 
@@ -71,9 +71,9 @@ struct LayerBase {
   /// Returns true for triangles between growth lines with a common ridge base vertex. They are not part of the given wall.
   bool is_virtual(TriangleId t) const { return ridges != nullptr && t.index() >= ridges->n_given_triangles; }
   /// Returns true if both vertices have a common ridge base vertex. Edges between such vertices have nearly zero length and are excluded from means.
-  bool have_one_foot(VertexId a, VertexId b) const { return ridges != nullptr && ridges->foot[a] == ridges->foot[b]; }
+  bool share_base_vertex(VertexId a, VertexId b) const { return ridges != nullptr && ridges->base_vertex[a] == ridges->base_vertex[b]; }
   /// Returns the multi-normal fan of a vertex; null if the vertex belongs to no fan.
-  const OpenedRidges::Foot* fan_of(VertexId v) const;
+  const OpenedRidges::BaseVertex* multi_normal_of(VertexId v) const;
   /// Returns the visibility of the faces at a vertex that can be required of a growth direction. The growth lines of a multi-normal fan must be able to
   /// converge towards the end of their ridge, where their visibility is no better than that of a single growth line.
   double cone_visibility(VertexId v) const;
@@ -97,7 +97,7 @@ struct LayerBase {
   /// vertex, because tetrahedra get this edge, too (for stretched triangles at least a third of the mean edge). Its logarithm is smoothed over some rings. A
   /// layer several edges thick cannot follow the scatter between single triangles: the steps would tilt the tops of all its prisms.
   void set_layer_edges(const RunContext& context);
-  void even_out_fans();
+  void even_out_multi_normals();
 };
 
 /// Calls f(w) for v and all vertices that must grow like v, ascending.

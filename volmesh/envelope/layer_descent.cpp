@@ -152,11 +152,11 @@ double LayerObjective::visit(std::size_t i, Vec3Field& y, VisitScratch& scratch)
   directions[static_cast<std::size_t>(tangents.count)] = normal;
   const auto solve = [&](const Vec3& r) { return solve_within(hessian, directions, tangents.count + 1, r); };
   Vec3 step = solve(-gradient);
-  const double wanted = dot(start + step, normal) / scale;
-  if (wanted > 1.0 || wanted < h_l_share_[i]) {
+  const double target = dot(start + step, normal) / scale;
+  if (target > 1.0 || target < h_l_share_[i]) {
     // This is the minimum of the model on the bound. The multiplier of the bound restores the missing height.
     const Vec3 lifted = solve(normal);
-    step += ((std::clamp(wanted, h_l_share_[i], 1.0) - wanted) * scale / dot(lifted, normal)) * lifted;
+    step += ((std::clamp(target, h_l_share_[i], 1.0) - target) * scale / dot(lifted, normal)) * lifted;
   }
   const double step_length = norm(step);
   if (step_length > k_max_step * scale) step *= k_max_step * scale / step_length;

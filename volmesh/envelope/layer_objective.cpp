@@ -5,7 +5,7 @@
 #include <limits>
 
 #include "geom/base/parallel.h"
-#include "volmesh/envelope/fan_taper.h"
+#include "volmesh/envelope/multi_normal_taper.h"
 
 namespace sterna::volmesh {
 namespace {
@@ -177,7 +177,8 @@ LayerObjective::Membrane LayerObjective::membrane(std::size_t v, double height, 
   if (weights_.membrane == 0.0) return sum;
   for (const VertexId w : base_.topology.neighbours(VertexId(v))) {
     const std::size_t other = w.index();
-    if (y[other] == Vec3{} || base_.have_one_foot(VertexId(v), w)) continue;  // the edge leads to a collapsed vertex, or to one with the same ridge base vertex
+    if (y[other] == Vec3{} || base_.share_base_vertex(VertexId(v), w))
+      continue;  // the edge leads to a collapsed vertex, or to one with the same ridge base vertex
     const double length = distance(base_.wall.points[VertexId(v)], base_.wall.points[w]), weight = membrane_weight(v, other) / (length * length);
     const double rise = height - normal_height(other, y[other]), energy = 0.5 * weight * rise * rise;
     sum.energy += energy;

@@ -7,7 +7,7 @@
 
 #include "geom/base/parallel.h"
 #include "geom/math/measures.h"
-#include "volmesh/envelope/fan_taper.h"
+#include "volmesh/envelope/multi_normal_taper.h"
 
 namespace sterna::volmesh {
 namespace {
@@ -33,13 +33,13 @@ struct PaperProblem::Violated {
 
 PaperProblem::PaperProblem(Borrowed<const LayerBase> base, const Envelope& start, const Column<VertexId, double>& h_u, double h_l, double g1_min,
                            const RunContext& context)
-    : base_(base), g1_min_(g1_min), vertex2place_(base->wall.n_vertices(), k_none), upper_(h_u), growth_(base->wall.n_vertices()) {
+    : base_(base), g1_min_(g1_min), vertex2location_(base->wall.n_vertices(), k_none), upper_(h_u), growth_(base->wall.n_vertices()) {
   parallel_for(context, growth_.size(), [&](std::size_t i) { growth_[VertexId(i)] = start.height[VertexId(i)] * start.direction[VertexId(i)]; });
   for (const VertexId v : start.height.ids()) {
     if (start.is_collapsed(v) || base->constraint[v].freedom == Freedom::fixed || is_tapered(base, start, v)) continue;
     const auto around = base->topology.outgoing(v);
     if (std::all_of(around.begin(), around.end(), [&](HalfedgeId h) { return is_standing(start, base->wall.triangles[triangle_of(h)]); }))
-      add_place(v, h_u[v], h_l);
+      add_location(v, h_u[v], h_l);
   }
   for (const TriangleId t : base->wall.triangles.ids()) {
     const TriangleVertices& v = base->wall.triangles[t];
@@ -47,80 +47,80 @@ PaperProblem::PaperProblem(Borrowed<const LayerBase> base, const Envelope& start
   }
 }
 
-void PaperProblem::add_place(VertexId v, double h_u, double h_l) {
+void PaperProblem::add_location(VertexId v, double h_u, double h_l) {
   const VertexConstraint& constraint = base_.constraint[v];
   const Vec3 normal = constrained(constraint, base_.vertex_normal[v]);
   const double h = dot(growth_[v], normal);
   upper_[v] = std::max(h_u, h);
   if (!(h > 0.0) || upper_[v] < k_paper_bound_ratio * h_l) return;
   const TangentAxes tangent = tangent_axes(constraint, normal);
-  Place place{.vertex = v, .first = static_cast<std::uint32_t>(n_unknowns_), .n_tangents = static_cast<std::uint8_t>(tangent.count), .h_u = upper_[v]};
-  for (std::size_t k = 0; k < place.n_tangents; ++k) {
-    place.axis[k] = tangent.axis[k];
-    const double reach = std::max(k_tangent_reach, k_tangent_reserve * std::abs(dot(growth_[v], place.axis[k])) / place.h_u);
+  Location location{.vertex = v, .first = static_cast<std::uint32_t>(n_unknowns_), .n_tangents = static_cast<std::uint8_t>(tangent.count), .h_u = upper_[v]};
+  for (std::size_t k = 0; k < location.n_tangents; ++k) {
+    location.axis[k] = tangent.axis[k];
+    const double reach = std::max(k_tangent_reach, k_tangent_reserve * std::abs(dot(growth_[v], location.axis[k])) / location.h_u);
     bounds_.lower.push_back(-reach);
     bounds_.upper.push_back(reach);
   }
-  place.axis[place.n_tangents] = normal;
-  bounds_.lower.push_back(std::min(h, h_l) / place.h_u);
+  location.axis[location.n_tangents] = normal;
+  bounds_.lower.push_back(std::min(h, h_l) / location.h_u);
   bounds_.upper.push_back(1.0);
   for (const HalfedgeId half : base_.topology.outgoing(v)) {
-    place.normal_sum += base_.unit_normal[triangle_of(half)];
-    place.n_triangles += 1.0;
+    location.normal_sum += base_.unit_normal[triangle_of(half)];
+    location.n_triangles += 1.0;
   }
-  n_unknowns_ += place.n_tangents + 1u;
-  vertex2place_[v] = static_cast<std::uint32_t>(vertices_.size());
-  vertices_.push_back(place);
+  n_unknowns_ += location.n_tangents + 1u;
+  vertex2location_[v] = static_cast<std::uint32_t>(vertices_.size());
+  vertices_.push_back(location);
 }
 
-Vec3 PaperProblem::growth(const Place& place, std::span<const double> z) {
+Vec3 PaperProblem::growth(const Location& location, std::span<const double> z) {
   Vec3 g;
-  for (std::size_t k = 0; k <= place.n_tangents; ++k) g += z[place.first + k] * place.axis[k];
+  for (std::size_t k = 0; k <= location.n_tangents; ++k) g += z[location.first + k] * location.axis[k];
   return g;
 }
 
-void PaperProblem::add_gradient(const Place& place, const Vec3& d, std::span<double> gradient) {
-  for (std::size_t k = 0; k <= place.n_tangents; ++k) gradient[place.first + k] += dot(d, place.axis[k]);
+void PaperProblem::add_gradient(const Location& location, const Vec3& d, std::span<double> gradient) {
+  for (std::size_t k = 0; k <= location.n_tangents; ++k) gradient[location.first + k] += dot(d, location.axis[k]);
 }
 
 std::vector<double> PaperProblem::unknowns(const Envelope& envelope) const {
   std::vector<double> z(n_unknowns_);
-  for (const Place& place : vertices_) {
-    const Vec3 g = (envelope.height[place.vertex] / place.h_u) * envelope.direction[place.vertex];
-    for (std::size_t k = 0; k <= place.n_tangents; ++k) z[place.first + k] = dot(g, place.axis[k]);
+  for (const Location& location : vertices_) {
+    const Vec3 g = (envelope.height[location.vertex] / location.h_u) * envelope.direction[location.vertex];
+    for (std::size_t k = 0; k <= location.n_tangents; ++k) z[location.first + k] = dot(g, location.axis[k]);
   }
   return z;
 }
 
 void PaperProblem::store(std::span<const double> z, Envelope& envelope, const RunContext& context) const {
   parallel_for(context, vertices_.size(), [&](std::size_t i) {
-    const Place& place = vertices_[i];
-    Vec3 g = place.h_u * growth(place, z);
-    const VertexConstraint& constraint = base_.constraint[place.vertex];
-    const Point& foot = base_.wall.points[place.vertex];
-    if (constraint.freedom == Freedom::surface) g = base_.surfaces[static_cast<std::size_t>(constraint.on[0])]->closest(foot + g) - foot;
-    envelope.height[place.vertex] = norm(g);
-    envelope.direction[place.vertex] = normalized(g);
+    const Location& location = vertices_[i];
+    Vec3 g = location.h_u * growth(location, z);
+    const VertexConstraint& constraint = base_.constraint[location.vertex];
+    const Point& base_point = base_.wall.points[location.vertex];
+    if (constraint.freedom == Freedom::surface) g = base_.surfaces[static_cast<std::size_t>(constraint.on[0])]->closest(base_point + g) - base_point;
+    envelope.height[location.vertex] = norm(g);
+    envelope.direction[location.vertex] = normalized(g);
   });
 }
 
 std::span<double> PaperProblem::unknowns_of(VertexId v, std::span<double> z) const {
   if (!takes_part(v)) return {};
-  const Place& place = vertices_[vertex2place_[v]];
-  return z.subspan(place.first, place.n_tangents + 1u);
+  const Location& location = vertices_[vertex2location_[v]];
+  return z.subspan(location.first, location.n_tangents + 1u);
 }
 
 std::size_t PaperProblem::shrink_violated(std::span<double> z, double factor, const RunContext& context) const {
   std::vector<double> gradient(z.size());
   constraint(z, gradient, context);
   std::size_t n_shrunk = 0;
-  for (const Place& place : vertices_) {
-    bool could_mend = false;
-    for (std::size_t k = 0; k <= place.n_tangents; ++k) could_mend = could_mend || gradient[place.first + k] != 0.0;
-    double& height = z[place.first + place.n_tangents];
-    const double shrunk = std::max(bounds_.lower[place.first + place.n_tangents], factor * height);
-    if (!could_mend || !(shrunk < height)) continue;
-    for (std::size_t k = 0; k < place.n_tangents; ++k) z[place.first + k] *= factor;
+  for (const Location& location : vertices_) {
+    bool could_repair = false;
+    for (std::size_t k = 0; k <= location.n_tangents; ++k) could_repair = could_repair || gradient[location.first + k] != 0.0;
+    double& height = z[location.first + location.n_tangents];
+    const double shrunk = std::max(bounds_.lower[location.first + location.n_tangents], factor * height);
+    if (!could_repair || !(shrunk < height)) continue;
+    for (std::size_t k = 0; k < location.n_tangents; ++k) z[location.first + k] *= factor;
     height = shrunk;
     ++n_shrunk;
   }
@@ -153,17 +153,17 @@ PaperObjective PaperProblem::objective(const Weights& weights, std::span<const d
       [&](std::size_t begin, std::size_t end) {
         PaperObjective own;
         for (std::size_t i = begin; i < end; ++i) {
-          const Place& place = vertices_[i];
-          const Vec3 g = growth(place, z);
+          const Location& location = vertices_[i];
+          const Vec3 g = growth(location, z);
           const double length = norm(g);
           const Vec3 u = g / length;
-          const double seen = dot(place.normal_sum, u);
-          own.f1 += place.n_triangles - seen;
-          own.f2 += 1.0 - z[place.first + place.n_tangents];
+          const double seen = dot(location.normal_sum, u);
+          own.f1 += location.n_triangles - seen;
+          own.f2 += 1.0 - z[location.first + location.n_tangents];
           if (gradient.empty()) continue;
-          const Vec3 d = (-weights.first * corner / length) * (place.normal_sum - seen * u);
-          for (std::size_t k = 0; k <= place.n_tangents; ++k) gradient[place.first + k] = dot(d, place.axis[k]);
-          gradient[place.first + place.n_tangents] -= weights.second * vertex;
+          const Vec3 d = (-weights.first * corner / length) * (location.normal_sum - seen * u);
+          for (std::size_t k = 0; k <= location.n_tangents; ++k) gradient[location.first + k] = dot(d, location.axis[k]);
+          gradient[location.first + location.n_tangents] -= weights.second * vertex;
         }
         return own;
       },
@@ -232,8 +232,8 @@ PaperConstraint PaperProblem::constraint(const Weights& weights, std::span<const
     const TriangleVertices& v = base_.wall.triangles[bad.triangle];
     for (std::size_t k = 0; k < 3; ++k) {
       if (!takes_part(v[k])) continue;
-      const Place& place = vertices_[vertex2place_[v[k]]];
-      add_gradient(place, place.h_u * bad.gradient[k], gradient);
+      const Location& location = vertices_[vertex2location_[v[k]]];
+      add_gradient(location, location.h_u * bad.gradient[k], gradient);
     }
   }
   return all.sum;

@@ -51,7 +51,7 @@ class PaperProblem {
   std::size_t n_unknowns() const { return n_unknowns_; }
   std::size_t n_vertices() const { return vertices_.size(); }  ///< n_v of eq. (9)
   std::size_t n_elements() const { return elements_.size(); }  ///< n_c of eq. (8)
-  bool takes_part(VertexId v) const { return vertex2place_[v] != k_none; }
+  bool takes_part(VertexId v) const { return vertex2location_[v] != k_none; }
 
   /// Returns the bounds. Heights are within [h_l, h_u]; if the start's height is below h_l, it is the lower bound. Tangential unknowns are within a cone that
   /// contains the start.
@@ -83,7 +83,7 @@ class PaperProblem {
  private:
   static constexpr std::uint32_t k_none = 0xffffffffu;
   /// A vertex that participates.
-  struct Place {
+  struct Location {
     VertexId vertex;
     std::uint32_t first = 0;  ///< number of its first unknown
     std::uint8_t n_tangents = 0;
@@ -98,17 +98,17 @@ class PaperProblem {
   struct Violated;
 
   /// Returns the growth edge divided by h_u.
-  static Vec3 growth(const Place& place, std::span<const double> z);
-  static void add_gradient(const Place& place, const Vec3& d, std::span<double> gradient);
+  static Vec3 growth(const Location& location, std::span<const double> z);
+  static void add_gradient(const Location& location, const Vec3& d, std::span<double> gradient);
   PaperObjective objective(const Weights& weights, std::span<const double> z, std::span<double> gradient, const RunContext& context) const;
   PaperConstraint constraint(const Weights& weights, std::span<const double> z, std::span<double> gradient, const RunContext& context) const;
-  void add_place(VertexId v, double h_u, double h_l);
+  void add_location(VertexId v, double h_u, double h_l);
 
   const LayerBase& base_;
   double g1_min_;
   std::size_t n_unknowns_ = 0;
-  std::vector<Place> vertices_;
-  Column<VertexId, std::uint32_t> vertex2place_;
+  std::vector<Location> vertices_;
+  Column<VertexId, std::uint32_t> vertex2location_;
   std::vector<TriangleId> elements_;
   PaperBounds bounds_;
   Column<VertexId, double> upper_;         ///< m, h_u of every vertex that is not collapsed

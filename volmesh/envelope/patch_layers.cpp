@@ -34,14 +34,14 @@ bool is_same(double a, double b) { return a == b || (is_automatic(a) && is_autom
 /// Layer settings that are common to all patches of a group.
 struct Group {
   double first_height, max_growth, max_thickness;
-  const FirstHeights* by_place;  ///< if not null, it supplies the first height at each location, and first_height is not used
-  double blend;                  ///< m; automatic until decide_blends()
-  double total_height;           ///< m; automatic: from the edges
-  bool asks_as(const Group& other) const {
-    return first_height == other.first_height && by_place == other.by_place && max_growth == other.max_growth && max_thickness == other.max_thickness &&
+  const FirstHeights* by_location;  ///< if not null, it supplies the first height at each location, and first_height is not used
+  double blend;                     ///< m; automatic until decide_blends()
+  double total_height;              ///< m; automatic: from the edges
+  bool requests_as(const Group& other) const {
+    return first_height == other.first_height && by_location == other.by_location && max_growth == other.max_growth && max_thickness == other.max_thickness &&
            is_same(total_height, other.total_height);
   }
-  bool operator==(const Group& other) const { return asks_as(other) && (blend == other.blend || (is_automatic(blend) && is_automatic(other.blend))); }
+  bool operator==(const Group& other) const { return requests_as(other) && (blend == other.blend || (is_automatic(blend) && is_automatic(other.blend))); }
 };
 
 std::vector<std::string> names_of(const Column<PatchId, Patch>& patches) {
@@ -72,33 +72,34 @@ Column<VertexId, std::uint32_t> parts_of(const LayerBase& base) {
   return part;
 }
 
-void log_part(const TriMesh& wall, const std::map<int, std::set<std::uint32_t>>& asked, const RunContext& context) {
+void log_part(const TriMesh& wall, const std::map<int, std::set<std::uint32_t>>& requested, const RunContext& context) {
   const auto list = [](const auto& items, const auto& text) {
     std::string joined;
     for (const auto& item : items) joined += (joined.empty() ? "" : ", ") + text(item);
     return joined;
   };
   std::string text;
-  for (const auto& [n, patches] : asked)
+  for (const auto& [n, patches] : requested)
     text += (text.empty() ? "" : "; ") + std::to_string(n) + " by " + list(patches, [&](std::uint32_t p) { return wall.patches[PatchId(p)].name; });
-  context.info("connected walls have one number of layers: " + std::to_string(asked.rbegin()->first) + ", the largest requested (" + text + ")");
+  context.info("connected walls have one number of layers: " + std::to_string(requested.rbegin()->first) + ", the largest requested (" + text + ")");
 }
 
 /// Returns for each vertex the largest number of layers that a patch of its connected part requests.
-Column<VertexId, std::uint16_t> numbers_of_layers(const LayerBase& base, const Column<PatchId, PatchLayers>& asked, int otherwise, const RunContext& context) {
+Column<VertexId, std::uint16_t> numbers_of_layers(const LayerBase& base, const Column<PatchId, PatchLayers>& requested, int otherwise,
+                                                  const RunContext& context) {
   const TriMesh& wall = base.wall;
   const Column<VertexId, std::uint32_t> part = parts_of(base);
-  std::map<std::uint32_t, std::map<int, std::set<std::uint32_t>>> asked_of_part;
+  std::map<std::uint32_t, std::map<int, std::set<std::uint32_t>>> requested_of_part;
   for (const TriangleId t : wall.triangles.ids()) {
     const PatchId patch = wall.triangle_patch[t];
-    if (asked[patch].carries_layers()) asked_of_part[part[wall.triangles[t][0]]][asked[patch].layers].insert(patch.value());
+    if (requested[patch].carries_layers()) requested_of_part[part[wall.triangles[t][0]]][requested[patch].layers].insert(patch.value());
   }
-  for (const auto& [number, numbers] : asked_of_part)
+  for (const auto& [number, numbers] : requested_of_part)
     if (numbers.size() > 1) log_part(wall, numbers, context);
   Column<VertexId, std::uint16_t> layers(wall.n_vertices());
   for (const VertexId v : layers.ids()) {
-    const auto found = asked_of_part.find(part[v]);
-    layers[v] = static_cast<std::uint16_t>(found == asked_of_part.end() ? otherwise : found->second.rbegin()->first);
+    const auto found = requested_of_part.find(part[v]);
+    layers[v] = static_cast<std::uint16_t>(found == requested_of_part.end() ? otherwise : found->second.rbegin()->first);
   }
   return layers;
 }
@@ -121,18 +122,18 @@ void solve(const std::string& of_all, const std::string& patch, PatchLayers& lay
 
 class Blender {
  public:
-  Blender(const LayerBase& base, const EnvelopeOptions& options, const Column<PatchId, PatchLayers>& asked, const FirstHeights* by_place, LayerDemand& demand,
-          const RunContext& context)
-      : base_(base), demand_(demand), context_(context), has_common_growth_(has_common_growth(options)), group_of_patch_(asked.size(), -1) {
-    std::vector<std::uint8_t> is_used(asked.size(), 0);
+  Blender(const LayerBase& base, const EnvelopeOptions& options, const Column<PatchId, PatchLayers>& requested, const FirstHeights* by_location,
+          LayerDemand& demand, const RunContext& context)
+      : base_(base), demand_(demand), context_(context), has_common_growth_(has_common_growth(options)), group_of_patch_(requested.size(), -1) {
+    std::vector<std::uint8_t> is_used(requested.size(), 0);
     for (const PatchId patch : base.wall.triangle_patch) is_used[patch.index()] = 1;
-    for (const PatchId patch : asked.ids()) {
-      const PatchLayers& layers = asked[patch];
+    for (const PatchId patch : requested.ids()) {
+      const PatchLayers& layers = requested[patch];
       if (!layers.carries_layers() || !is_used[patch.index()]) continue;
       const Group group{layers.first_height,
                         layers.max_growth,
                         thickness_limit(layers.max_thickness, layers.total_height, base.body_length),
-                        layers.has_own_first_height ? nullptr : by_place,
+                        layers.has_own_first_height ? nullptr : by_location,
                         layers.blend,
                         layers.total_height};
       const auto found = std::find(groups_.begin(), groups_.end(), group);
@@ -140,7 +141,7 @@ class Blender {
       if (found == groups_.end()) groups_.push_back(group);
     }
     if (groups_.empty())
-      groups_.push_back({options.first_height, options.max_growth, thickness_limit(options.max_thickness, options.total_height, base.body_length), by_place,
+      groups_.push_back({options.first_height, options.max_growth, thickness_limit(options.max_thickness, options.total_height, base.body_length), by_location,
                          k_automatic, options.total_height});
   }
 
@@ -182,7 +183,7 @@ class Blender {
       std::string names;
       for (const PatchId patch : base_.wall.patches.ids())
         if (group_of_patch_[patch.index()] == static_cast<int>(g)) names += (names.empty() ? "" : ", ") + base_.wall.patches[patch].name;
-      context_.info("layers of " + names + ": first height " + (groups_[g].by_place ? "by location" : in_metres(groups_[g].first_height, k_length_digits)) +
+      context_.info("layers of " + names + ": first height " + (groups_[g].by_location ? "by location" : in_metres(groups_[g].first_height, k_length_digits)) +
                     (groups_[g].blend > 0.0 ? ", blended with neighbouring patches over " + in_metres(groups_[g].blend, k_length_digits) : ""));
     }
   }
@@ -207,7 +208,7 @@ class Blender {
       double tallest = 0.0;
       for (const std::size_t g : here) tallest = std::max(tallest, height_at(groups_[g], v));
       for (const std::size_t g : here) {
-        if (std::all_of(here.begin(), here.end(), [&](std::size_t other) { return groups_[g].asks_as(groups_[other]); })) continue;
+        if (std::all_of(here.begin(), here.end(), [&](std::size_t other) { return groups_[g].requests_as(groups_[other]); })) continue;
         heights[g] += tallest;
         edges[g] += base_.layer_edge[v];
         n[g] += 1.0;
@@ -219,7 +220,7 @@ class Blender {
     }
   }
 
-  double first_height_at(const Group& group, VertexId v) const { return group.by_place ? group.by_place->at(base_.wall.points[v]) : group.first_height; }
+  double first_height_at(const Group& group, VertexId v) const { return group.by_location ? group.by_location->at(base_.wall.points[v]) : group.first_height; }
 
   double height_at(const Group& group, VertexId v) const {
     if (!is_automatic(group.total_height)) return std::min(group.total_height, group.max_thickness);
@@ -302,8 +303,8 @@ PatchLayers request_of(const Patch& patch, const EnvelopeOptions& options, std::
                      .max_growth = options.max_growth,
                      .total_height = options.total_height,
                      .max_thickness = options.max_thickness};
-  const auto take = [](double asked, double& value, bool& is_own) {
-    if (!is_automatic(asked)) value = asked, is_own = true;
+  const auto take = [](double requested, double& value, bool& is_own) {
+    if (!is_automatic(requested)) value = requested, is_own = true;
   };
   for (const PatchRule& rule : rules) {
     if (!matches_glob(patch.name, rule.names)) continue;
@@ -346,44 +347,44 @@ Column<PatchId, PatchLayers> layers_of_part(Column<PatchId, Patch> patches, cons
 template <class T>
 void take_least_of_groups(const std::vector<std::vector<VertexId>>& groups, Column<VertexId, T>& column) {
   if (column.empty()) return;
-  const auto asks_less = [](T a, T b) { return a < b || (b != b && a == a); };  // a number counts as smaller than NaN (k_automatic)
+  const auto requests_less = [](T a, T b) { return a < b || (b != b && a == a); };  // a number counts as smaller than NaN (k_automatic)
   for (const std::vector<VertexId>& group : groups) {
     T least = column[group.front()];
     for (const VertexId v : group)
-      if (asks_less(column[v], least)) least = column[v];
+      if (requests_less(column[v], least)) least = column[v];
     for (const VertexId v : group) column[v] = least;
   }
 }
 
-LayerDemand demand_of(const LayerBase& base, const EnvelopeOptions& options, std::span<const PatchRule> rules, const FirstHeights* by_place,
+LayerDemand demand_of(const LayerBase& base, const EnvelopeOptions& options, std::span<const PatchRule> rules, const FirstHeights* by_location,
                       const RunContext& context) {
-  const Column<PatchId, PatchLayers> asked = layers_of_part(base.wall.patches, options, rules);
+  const Column<PatchId, PatchLayers> requested = layers_of_part(base.wall.patches, options, rules);
   const auto is_as_all = [&](const PatchLayers& layers) {
-    return !layers.carries_layers() || (!(by_place && !layers.has_own_first_height) && layers.layers == options.layers &&
+    return !layers.carries_layers() || (!(by_location && !layers.has_own_first_height) && layers.layers == options.layers &&
                                         layers.first_height == options.first_height && layers.max_growth == options.max_growth &&
                                         is_same(layers.max_thickness, options.max_thickness) && is_same(layers.total_height, options.total_height));
   };
   LayerDemand demand;
-  if (std::all_of(base.wall.triangle_patch.begin(), base.wall.triangle_patch.end(), [&](PatchId patch) { return is_as_all(asked[patch]); })) return demand;
-  demand.layers = numbers_of_layers(base, asked, options.layers, context);
-  Blender blender(base, options, asked, by_place, demand, context);
+  if (std::all_of(base.wall.triangle_patch.begin(), base.wall.triangle_patch.end(), [&](PatchId patch) { return is_as_all(requested[patch]); })) return demand;
+  demand.layers = numbers_of_layers(base, requested, options.layers, context);
+  Blender blender(base, options, requested, by_location, demand, context);
   blender.blend();
   blender.log();
   for_each_column([&](auto& column) { take_least_of_groups(base.groups, column); }, demand);
   return demand;
 }
 
-void warn_of_unused_blends(const LayerBase& base, const EnvelopeOptions& options, std::span<const PatchRule> rules, const FirstHeights* by_place,
+void warn_of_unused_blends(const LayerBase& base, const EnvelopeOptions& options, std::span<const PatchRule> rules, const FirstHeights* by_location,
                            const RunContext& context) {
   if (std::ranges::none_of(rules, [](const PatchRule& rule) { return !is_automatic(rule.blend); })) return;
   const Column<PatchId, Patch>& patches = base.wall.patches;
-  const Column<PatchId, PatchLayers> asked = layers_of_part(patches, options, rules);
+  const Column<PatchId, PatchLayers> requested = layers_of_part(patches, options, rules);
   const auto group_of = [&](PatchId p) {
-    const PatchLayers& layers = asked[p];
+    const PatchLayers& layers = requested[p];
     return Group{layers.first_height,
                  layers.max_growth,
                  thickness_limit(layers.max_thickness, layers.total_height, base.body_length),
-                 layers.has_own_first_height ? nullptr : by_place,
+                 layers.has_own_first_height ? nullptr : by_location,
                  layers.blend,
                  layers.total_height};
   };
@@ -392,10 +393,10 @@ void warn_of_unused_blends(const LayerBase& base, const EnvelopeOptions& options
   for (const VertexId v : base.wall.points.ids()) {
     std::set<PatchId> here;
     for (const HalfedgeId h : base.topology.outgoing(v))
-      if (const PatchId p = base.wall.triangle_patch[triangle_of(h)]; asked[p].carries_layers()) here.insert(p);
+      if (const PatchId p = base.wall.triangle_patch[triangle_of(h)]; requested[p].carries_layers()) here.insert(p);
     for (const PatchId p : here) {
       is_there[p] = 1;
-      if (std::ranges::any_of(here, [&](PatchId other) { return other != p && !group_of(p).asks_as(group_of(other)); })) differs[p] = 1;
+      if (std::ranges::any_of(here, [&](PatchId other) { return other != p && !group_of(p).requests_as(group_of(other)); })) differs[p] = 1;
     }
   }
   for (const PatchRule& rule : rules) {
@@ -403,7 +404,7 @@ void warn_of_unused_blends(const LayerBase& base, const EnvelopeOptions& options
     std::string names;
     bool is_used = false;
     for (const PatchId p : patches.ids()) {
-      if (is_there[p] == 0 || asked[p].blend != rule.blend || !matches_glob(patches[p].name, rule.names)) continue;
+      if (is_there[p] == 0 || requested[p].blend != rule.blend || !matches_glob(patches[p].name, rule.names)) continue;
       is_used = is_used || differs[p] != 0;
       names += (names.empty() ? "\"" : ", \"") + patches[p].name + "\"";
     }

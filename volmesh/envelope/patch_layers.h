@@ -49,10 +49,10 @@ Column<PatchId, PatchLayers> layers_of_patches(const Column<PatchId, Patch>& pat
 /// with different settings, by the distance along the wall, so that both sides meet in their mean at the border. Each connected part of the wall gets the
 /// largest requested number of layers; parts with several numbers are logged. Vertices that must grow alike get the smallest of their requests. Triangles of
 /// patches without layers (which do not occur in a base) get the settings of the options. Deterministic; takes about 1 s per million vertices and different
-/// patch. If `by_place` is not null, it supplies the first heights of patches for which no rule gives one.
+/// patch. If `by_location` is not null, it supplies the first heights of patches for which no rule gives one.
 /// \throws Error(bad_argument) like layers_of_patches
 /// \pre `options` are those passed to the envelope and the extrusion
-LayerDemand demand_of(const LayerBase& base, const EnvelopeOptions& options, std::span<const PatchRule> rules, const FirstHeights* by_place,
+LayerDemand demand_of(const LayerBase& base, const EnvelopeOptions& options, std::span<const PatchRule> rules, const FirstHeights* by_location,
                       const RunContext& context);
 
 /// Returns for each patch whether ridges between such patches are opened. `of_all` applies to patches without a rule.

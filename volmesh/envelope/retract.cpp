@@ -24,16 +24,16 @@ std::vector<VertexId> lower_pairs(const Collider& collider, const std::vector<Bo
     parallel_for(
         context, pairs.size(), [&](std::size_t i) { share[i] = k_pair_reserve * collider.clear_share(pairs[i], envelope); }, 16);
   // A vertex of several pairs gets the lowest height. All heights are computed from those before this round.
-  std::vector<std::pair<VertexId, double>> wanted;
+  std::vector<std::pair<VertexId, double>> target;
   for (std::size_t i = 0; i < pairs.size(); ++i) {
     for (const BoundaryTriangle& triangle : pairs[i]) {
       const double height = share[i] * collider.tallest(triangle, envelope);
-      for (const VertexId v : collider.moving_vertices(triangle)) wanted.emplace_back(v, height);
+      for (const VertexId v : collider.moving_vertices(triangle)) target.emplace_back(v, height);
     }
   }
-  std::sort(wanted.begin(), wanted.end());
+  std::sort(target.begin(), target.end());
   std::vector<VertexId> vertices;
-  for (const auto& [v, height] : wanted) {
+  for (const auto& [v, height] : target) {
     if (!vertices.empty() && vertices.back() == v) continue;
     vertices.push_back(v);
     lower(envelope, v, height, HeightLimit::collision, scale);

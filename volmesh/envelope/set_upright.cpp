@@ -51,7 +51,7 @@ std::vector<VertexId> leaning_lines(const LayerBase& base, const EnvelopeScale& 
           const auto step = [&](VertexId w) { return straight_step(base, scale, envelope, w); };
           if (column_cosine({step(v[0]), step(v[1]), step(v[2])}, normal) >= k_lean_cosine) continue;
           for (const VertexId w : v)
-            if (leans(w, k_seen_cosine) && base.fan_of(w) == nullptr) found.push_back(w);
+            if (leans(w, k_seen_cosine) && base.multi_normal_of(w) == nullptr) found.push_back(w);
         }
       },
       k_facet_chunk);

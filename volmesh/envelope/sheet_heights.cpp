@@ -37,7 +37,7 @@ class SheetGrower {
   SheetGrower(const DoubledSheets& sheets, const EnvelopeOptions& options, LayerBase& base) : sheets_(sheets), base_(base), scale_(base, options) {}
 
   void grow() {
-    for (const DoubledSheets::Foot& foot : sheets_.feet) lines_.push_back(line_of(foot));
+    for (const DoubledSheets::BaseVertex& base_vertex : sheets_.base_vertices) lines_.push_back(line_of(base_vertex));
     share_with_images();
     LayerDemand demand = base_.demand;
     if (demand.total_height.empty()) {
@@ -46,8 +46,8 @@ class SheetGrower {
     }
     level(demand.layers);
     for (std::size_t i = 0; i < lines_.size(); ++i) {
-      if (sheets_.feet[i].row == 0) continue;
-      for (const VertexId v : sheets_.feet[i].sides) {
+      if (sheets_.base_vertices[i].row == 0) continue;
+      for (const VertexId v : sheets_.base_vertices[i].sides) {
         demand.first_height[v] = std::min(lines_[i].first_height, lines_[i].height / demand.layers[v]);
         demand.total_height[v] = lines_[i].height;
       }
@@ -56,28 +56,28 @@ class SheetGrower {
   }
 
  private:
-  SheetLine line_of(const DoubledSheets::Foot& foot) const {
+  SheetLine line_of(const DoubledSheets::BaseVertex& base_vertex) const {
     SheetLine line;
-    line.layers = scale_.n(foot.sides[0]);
-    if (foot.row == 0) return line;
-    const int all = scale_.n(foot.start[0]);
-    const double before = std::min(scale_.h0(foot.start[0]), scale_.h0(foot.start[1]));
+    line.layers = scale_.n(base_vertex.sides[0]);
+    if (base_vertex.row == 0) return line;
+    const int all = scale_.n(base_vertex.start[0]);
+    const double before = std::min(scale_.h0(base_vertex.start[0]), scale_.h0(base_vertex.start[1]));
     double edge = 0.0;
     for (std::size_t k = 0; k < 2; ++k) {
-      const VertexId v = foot.sides[k];
-      const double asked = scale_.total_height(v);
+      const VertexId v = base_vertex.sides[k];
+      const double requested = scale_.total_height(v);
       const double by_edge = height_by_edge(before, base_.layer_edge[v], scale_.max_growth(v), all, scale_.has_common_growth());
-      const double height = std::min(is_automatic(asked) ? by_edge : asked, scale_.max_thickness(v));
+      const double height = std::min(is_automatic(requested) ? by_edge : requested, scale_.max_thickness(v));
       line.height = k == 0 ? height : std::min(line.height, height);
       edge = k == 0 ? base_.layer_edge[v] : std::min(edge, base_.layer_edge[v]);
     }
     line.growth = growth_for_height(before, line.height, all);
-    for (const VertexId v : foot.sides)
+    for (const VertexId v : base_vertex.sides)
       for_each_edge(base_.topology, v, [&](HalfedgeId, VertexId w) {
-        if (base_.is_sheet_rim(w)) line.height = std::min(line.height, k_rim_slope * distance(base_.wall.points[v], base_.wall.points[w]));
+        if (base_.is_sheet_border(w)) line.height = std::min(line.height, k_border_slope * distance(base_.wall.points[v], base_.wall.points[w]));
       });
     const double tallest = std::max(before, std::min(line.height, k_tallest_first * k_regular_height * edge));
-    line.first_height = std::min(tallest, before * std::pow(std::min(foot.height_growth, line.growth), foot.row));
+    line.first_height = std::min(tallest, before * std::pow(std::min(base_vertex.height_growth, line.growth), base_vertex.row));
     line.layers = layers_for(line, all);
     return line;
   }
@@ -86,7 +86,7 @@ class SheetGrower {
   void share_with_images() {
     constexpr std::size_t k_none = static_cast<std::size_t>(-1);
     Column<VertexId, std::size_t> line_at(base_.wall.n_vertices(), k_none);
-    for (std::size_t i = 0; i < lines_.size(); ++i) line_at[sheets_.feet[i].sides[0]] = i;
+    for (std::size_t i = 0; i < lines_.size(); ++i) line_at[sheets_.base_vertices[i].sides[0]] = i;
     for (const std::vector<VertexId>& group : base_.groups) {
       std::vector<std::size_t> members;
       for (const VertexId v : group)
@@ -115,13 +115,13 @@ class SheetGrower {
   void level(Column<VertexId, std::uint16_t>& layers) const {
     std::vector<VertexId> changed;
     for (std::size_t i = 0; i < lines_.size(); ++i)
-      for (const VertexId v : sheets_.feet[i].sides) {
+      for (const VertexId v : sheets_.base_vertices[i].sides) {
         layers[v] = static_cast<std::uint16_t>(lines_[i].layers);
         changed.push_back(v);
       }
     Column<VertexId, VertexId> partner(base_.wall.n_vertices());
-    for (const DoubledSheets::Foot& foot : sheets_.feet)
-      for (std::size_t k = 0; k < 2; ++k) partner[foot.sides[k]] = foot.sides[1 - k];
+    for (const DoubledSheets::BaseVertex& base_vertex : sheets_.base_vertices)
+      for (std::size_t k = 0; k < 2; ++k) partner[base_vertex.sides[k]] = base_vertex.sides[1 - k];
     while (!changed.empty()) {
       std::vector<VertexId> next;
       const auto raise = [&](VertexId v, int least) {
@@ -137,11 +137,11 @@ class SheetGrower {
       }
       changed.swap(next);
     }
-    for (const VertexId rim : sheets_.rims) {
-      if (rim.index() < sheets_.n_given_vertices) continue;
-      layers[rim] = 1;
-      for_each_edge(base_.topology, rim, [&](HalfedgeId, VertexId w) {
-        if (partner[w].is_valid()) layers[rim] = std::max(layers[rim], layers[w]);
+    for (const VertexId border : sheets_.borders) {
+      if (border.index() < sheets_.n_given_vertices) continue;
+      layers[border] = 1;
+      for_each_edge(base_.topology, border, [&](HalfedgeId, VertexId w) {
+        if (partner[w].is_valid()) layers[border] = std::max(layers[border], layers[w]);
       });
     }
   }
@@ -155,7 +155,7 @@ class SheetGrower {
 }  // namespace
 
 void grow_sheet_heights(const DoubledSheets& sheets, const EnvelopeOptions& options, LayerBase& base) {
-  if (std::ranges::none_of(sheets.feet, [](const DoubledSheets::Foot& foot) { return foot.height_growth > 1.0; })) return;
+  if (std::ranges::none_of(sheets.base_vertices, [](const DoubledSheets::BaseVertex& base_vertex) { return base_vertex.height_growth > 1.0; })) return;
   if (base.demand.is_empty()) base.demand = demand_everywhere(base, options);
   SheetGrower(sheets, options, base).grow();
 }

@@ -5,8 +5,8 @@
 #include <limits>
 
 #include "geom/base/parallel.h"
-#include "volmesh/envelope/fan_taper.h"
 #include "volmesh/envelope/initial.h"
+#include "volmesh/envelope/multi_normal_taper.h"
 #include "volmesh/envelope/validity.h"
 
 namespace sterna::volmesh {
@@ -37,7 +37,7 @@ void for_each_partner(const LayerBase& base, const Classification& classes, Vert
     return;
   }
   for (const VertexId other : base.topology.neighbours(v)) {
-    if (base.have_one_foot(v, other)) continue;
+    if (base.share_base_vertex(v, other)) continue;
     const VertexClass& flags = classes.vertex[other];
     const bool is_convex_feature = !flags.is_smooth() && flags.is_convex && !flags.is_concave;
     f(other, base.mirror_weight(v, other) * (is_convex_feature ? k_convex_feature_weight : 1.0) / distance(base.wall.points[v], base.wall.points[other]));

@@ -147,11 +147,11 @@ std::vector<VertexId> lower_folds(const LayerBase& base, const std::vector<Trian
   std::vector<double> share(folds.size());
   parallel_for(
       context, folds.size(), [&](std::size_t i) { share[i] = open_share(base, envelope, folds[i]); }, 64);
-  std::vector<std::pair<VertexId, double>> wanted;
+  std::vector<std::pair<VertexId, double>> raised_heights;
   for (std::size_t i = 0; i < folds.size(); ++i)
-    for (const VertexId v : edge_diamond(base, folds[i])) wanted.push_back({v, k_reserve * share[i] * envelope.height[v]});
+    for (const VertexId v : edge_diamond(base, folds[i])) raised_heights.push_back({v, k_reserve * share[i] * envelope.height[v]});
   std::vector<VertexId> lowered;
-  for (const auto& [v, height] : wanted) {
+  for (const auto& [v, height] : raised_heights) {
     if (!(height < envelope.height[v])) continue;
     lower(envelope, v, height, reason, scale);
     lowered.push_back(v);
@@ -197,7 +197,7 @@ std::vector<VertexId> lower_elements(const LayerBase& base, const std::vector<Tr
 std::vector<VertexId> surround_collapsed(const LayerBase& base, const std::vector<VertexId>& vertices, const EnvelopeScale& scale, Envelope& envelope) {
   std::vector<VertexId> all, front;
   for (const VertexId v : vertices) {
-    if (!envelope.is_collapsed(v) || base.is_sheet_rim(v)) continue;
+    if (!envelope.is_collapsed(v) || base.is_sheet_border(v)) continue;
     for (const VertexId other : base.topology.neighbours(v)) {
       const double rise = scale.has_common_growth() ? k_ring_gradient * distance(base.wall.points[v], base.wall.points[other]) : 0.0;
       const double bound = std::max(scale.compressed(other), rise);

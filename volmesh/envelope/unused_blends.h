@@ -14,7 +14,7 @@ namespace sterna::volmesh {
 /// Warns of each rule whose `blend` has no effect, because no patch of the rule is adjacent to a patch whose layers differ in first height, growth, height or
 /// thickness.
 /// \pre the same as for demand_of
-void warn_of_unused_blends(const LayerBase& base, const EnvelopeOptions& options, std::span<const PatchRule> rules, const FirstHeights* by_place,
+void warn_of_unused_blends(const LayerBase& base, const EnvelopeOptions& options, std::span<const PatchRule> rules, const FirstHeights* by_location,
                            const RunContext& context);
 
 }  // namespace sterna::volmesh

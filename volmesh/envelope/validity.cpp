@@ -198,11 +198,11 @@ ShapeChange difference(const EnvelopeShape& from, const EnvelopeShape& to, const
 }
 
 TrialChange::TrialChange(Borrowed<const LayerBase> base, Borrowed<EnvelopeShape> shape, ShapeChange change, const RunContext& context)
-    : base_(base), shape_(shape), context_(context), change_(std::move(change)), is_in_force_(base->wall.n_vertices(), 0), place_(base->wall.n_vertices()) {
+    : base_(base), shape_(shape), context_(context), change_(std::move(change)), is_in_force_(base->wall.n_vertices(), 0), location_(base->wall.n_vertices()) {
   parallel_for(context, change_.vertices.size(), [&](std::size_t i) {
     const VertexId v = change_.vertices[i];
     if (!is_inside(base, v, change_.height[i] * change_.direction[i])) return;
-    place_[v] = static_cast<std::uint32_t>(i);
+    location_[v] = static_cast<std::uint32_t>(i);
     is_in_force_[v] = 1;
     exchange(i);
   });
@@ -224,7 +224,7 @@ std::vector<VertexId> TrialChange::vertices_in_force() const {
 bool TrialChange::take_back(VertexId v) {
   if (!is_in_force_[v]) return false;
   is_in_force_[v] = 0;
-  exchange(place_[v]);
+  exchange(location_[v]);
   return true;
 }
 

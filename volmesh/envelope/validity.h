@@ -75,7 +75,7 @@ class TrialChange {
   RunContext context_;
   ShapeChange change_;
   Column<VertexId, std::uint8_t> is_in_force_;
-  Column<VertexId, std::uint32_t> place_;  ///< for each vertex its index in the change
+  Column<VertexId, std::uint32_t> location_;  ///< for each vertex its index in the change
 };
 
 /// Moves `envelope` to `proposal` (direction and height) at every vertex where macro-elements stay valid and the vertex itself is_inside(). All vertices move

@@ -24,9 +24,9 @@ double slope_bound(const Point& a, double ha, const Point& b, double hb, const P
   const double u = dot(to_c, x);
   const double height = norm(to_c - u * x);
   const double across = std::sqrt(slope * slope - rise * rise);
-  const double foot = u - height * rise / across;  // location at which the line of steepest rise through c intersects a-b
+  const double base_point = u - height * rise / across;  // location at which the line of steepest rise through c intersects a-b
   const double value = ha + rise * u + across * height;
-  return foot > 0.0 && foot < length && value >= std::max(ha, hb) ? value : along_edges;
+  return base_point > 0.0 && base_point < length && value >= std::max(ha, hb) ? value : along_edges;
 }
 
 /// A vertex and a candidate for its value.

@@ -78,17 +78,17 @@ bool can_share(const TetraBoundary& boundary, std::uint32_t triangle, std::uint3
 
 }  // namespace
 
-std::vector<std::uint32_t> forcing_triangles(const TetraBoundary& boundary, std::span<const std::uint32_t> wanted, double low, double high,
+std::vector<std::uint32_t> forcing_triangles(const TetraBoundary& boundary, std::span<const std::uint32_t> target, double low, double high,
                                              const RunContext& context) {
-  std::vector<Core> cores(wanted.size());
-  std::vector<Box> boxes(wanted.size());
-  for (std::size_t i = 0; i < wanted.size(); ++i) {
-    cores[i] = core_of(boundary, wanted[i], low);
+  std::vector<Core> cores(target.size());
+  std::vector<Box> boxes(target.size());
+  for (std::size_t i = 0; i < target.size(); ++i) {
+    cores[i] = core_of(boundary, target[i], low);
     boxes[i] = box_of(cores[i]);
   }
   const BoxTree tree(boxes, context);
   struct Hit {
-    std::uint32_t place, triangle;
+    std::uint32_t location, triangle;
   };
   using Hits = std::vector<Hit>;
   const Hits hits = parallel_reduce(
@@ -99,7 +99,7 @@ std::vector<std::uint32_t> forcing_triangles(const TetraBoundary& boundary, std:
           const auto triangle = static_cast<std::uint32_t>(t);
           const Core core = core_of(boundary, triangle, low);
           tree.for_each_overlap(box_of(core), [&](std::uint32_t i) {
-            if (wanted[i] != triangle && do_overlap(cores[i], core) && !can_share(boundary, wanted[i], triangle, low, high)) found.push_back({i, triangle});
+            if (target[i] != triangle && do_overlap(cores[i], core) && !can_share(boundary, target[i], triangle, low, high)) found.push_back({i, triangle});
             return true;
           });
         }
@@ -109,8 +109,8 @@ std::vector<std::uint32_t> forcing_triangles(const TetraBoundary& boundary, std:
         a.insert(a.end(), b.begin(), b.end());
         return a;
       });
-  std::vector<std::uint32_t> result(wanted.size(), k_unforced);
-  for (const Hit& hit : hits) result[hit.place] = std::min(result[hit.place], hit.triangle);
+  std::vector<std::uint32_t> result(target.size(), k_unforced);
+  for (const Hit& hit : hits) result[hit.location] = std::min(result[hit.location], hit.triangle);
   return result;
 }
 

@@ -16,10 +16,10 @@
 
 namespace sterna::volmesh {
 
-/// Finds triangles that force a bad tetrahedron. For each boundary triangle in `wanted`, returns another boundary triangle whose core overlaps its core, and
+/// Finds triangles that force a bad tetrahedron. For each boundary triangle in `target`, returns another boundary triangle whose core overlaps its core, and
 /// that cannot be a face of the same tetrahedron; k_unforced if there is none. Overlaps thinner than a thousandth of the cores are ignored. Angles are in
 /// radians. Parallel, O(n log n).
-std::vector<std::uint32_t> forcing_triangles(const TetraBoundary& boundary, std::span<const std::uint32_t> wanted, double low, double high,
+std::vector<std::uint32_t> forcing_triangles(const TetraBoundary& boundary, std::span<const std::uint32_t> target, double low, double high,
                                              const RunContext& context);
 inline constexpr std::uint32_t k_unforced = 0xffffffffu;
 

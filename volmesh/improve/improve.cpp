@@ -4,23 +4,23 @@
 #include <cmath>
 
 #include "geom/mesh/gates.h"
+#include "volmesh/improve/angle_survey.h"
 #include "volmesh/improve/improver.h"
 #include "volmesh/improve/remaining.h"
-#include "volmesh/improve/survey.h"
 
 namespace sterna::volmesh {
 namespace {
 
 constexpr double k_angles_end = 0.4;  ///< fraction of the time at the end of the first pass
-constexpr int k_wish_failures = 3;    ///< fewer attempts for the targets: many tetrahedra miss them, and those that can be improved are improved soon
+constexpr int k_target_failures = 3;  ///< fewer attempts for the targets: many tetrahedra miss them, and those that can be improved are improved soon
 
 /// Returns the limits of the second pass, which follows the pass for the hard limits: the target values of the gates. Changes in this pass make no angle worse
 /// than the worst that they replace, or than the limits.
-QualityLimits wished_limits(const ImproveOptions& options) {
+QualityLimits target_limits(const ImproveOptions& options) {
   const GateTable gates;
   QualityLimits limits = quality_limits(options.improve_min_angle, std::min(options.improve_max_angle, gates[Measure::max_dihedral].target));
   limits.floor = limits.target;
-  limits.max_failures = k_wish_failures;
+  limits.max_failures = k_target_failures;
   limits.size_step = gates[Measure::interface_volume].usual;
   return limits;
 }
@@ -30,8 +30,8 @@ AngleSurvey survey_of(const TetraBoundary& boundary, const TetraResult& tets, co
   return survey_angles(boundary, tets, quality_limits(options.improve_min_angle, options.improve_max_angle), context);
 }
 
-void tell(const TetraBoundary& boundary, const TetraResult& tets, const AngleSurvey& survey, const ImproveOptions& options, ImproveReport& report,
-          const RunContext& context) {
+void log_improvement(const TetraBoundary& boundary, const TetraResult& tets, const AngleSurvey& survey, const ImproveOptions& options, ImproveReport& report,
+                     const RunContext& context) {
   report.n_bad_after = static_cast<std::int64_t>(survey.bad.size());
   report.n_at_boundary = survey.n_at_boundary;
   report.min_angle_after = survey.smallest;
@@ -55,9 +55,9 @@ ImproveReport improve_tetrahedra(const TetraBoundary& boundary, TetraResult& tet
     if (!survey.bad.empty())
       improve_to(quality_limits(options.improve_min_angle, options.improve_max_angle), context.part("angles", 0.0, k_angles_end),
                  [&](Improver& improver) { improver.work_on(survey.bad); });
-    improve_to(wished_limits(options), context.part("shapes", k_angles_end, 1.0), [&](Improver& improver) { improver.work_on_all_but(survey.bad); });
+    improve_to(target_limits(options), context.part("shapes", k_angles_end, 1.0), [&](Improver& improver) { improver.work_on_all_but(survey.bad); });
   }
-  tell(boundary, tets, survey, options, report, context);
+  log_improvement(boundary, tets, survey, options, report, context);
   return report;
 }
 
@@ -70,14 +70,14 @@ void improve_around(const TetraBoundary& boundary, std::span<const std::uint32_t
     if (std::ranges::any_of(tets.tetrahedra[t], [&](std::uint32_t v) { return v < is_around.size() && is_around[v]; }))
       some.push_back(static_cast<std::uint32_t>(t));
   // There is a single pass, because a pass for angles alone would undo the changes of volumes.
-  Improver improver(boundary, tets, wished_limits(options), context);
+  Improver improver(boundary, tets, target_limits(options), context);
   improver.work_on_bad_of(some);
   report.rounds += improver.run(options.improve_rounds);
   improver.finish(tets);
 }
 
-void tell_remaining(const TetraBoundary& boundary, const TetraResult& tets, const ImproveOptions& options, ImproveReport& report, const RunContext& context) {
-  tell(boundary, tets, survey_of(boundary, tets, options, context), options, report, context);
+void report_remaining(const TetraBoundary& boundary, const TetraResult& tets, const ImproveOptions& options, ImproveReport& report, const RunContext& context) {
+  log_improvement(boundary, tets, survey_of(boundary, tets, options, context), options, report, context);
 }
 
 }  // namespace sterna::volmesh

@@ -25,8 +25,9 @@ struct ImproveReport {
   std::int64_t n_at_boundary = 0;  ///< number of tetrahedra with a vertex on the boundary
   /// Number of bad tetrahedra that the boundary provably forces (remaining.h); other bad tetrahedra are failures of the improvement.
   std::int64_t n_forced = 0;
-  std::int64_t n_slid = 0;            ///< number of growth lines whose height was changed afterwards
-  std::vector<ErrorPlace> remaining;  ///< the first 10 000 bad tetrahedra, worst first: centre, angles, and sharpest angle of the boundary at the tetrahedron
+  std::int64_t n_slid = 0;  ///< number of growth lines whose height was changed afterwards
+  std::vector<ErrorLocation>
+      remaining;  ///< the first 10 000 bad tetrahedra, worst first: centre, angles, and sharpest angle of the boundary at the tetrahedron
 };
 
 /// Improves every tetrahedron with a dihedral angle beyond the limits, worst first. Operations are edge removal (rings of 3 to 10: 2-3, 4-4 etc.), multi-face
@@ -47,6 +48,6 @@ void improve_around(const TetraBoundary& boundary, std::span<const std::uint32_t
                     ImproveReport& report, const RunContext& context);
 
 /// Updates the data of the report about the tetrahedra.
-void tell_remaining(const TetraBoundary& boundary, const TetraResult& tets, const ImproveOptions& options, ImproveReport& report, const RunContext& context);
+void report_remaining(const TetraBoundary& boundary, const TetraResult& tets, const ImproveOptions& options, ImproveReport& report, const RunContext& context);
 
 }  // namespace sterna::volmesh

@@ -27,7 +27,7 @@ constexpr std::uint64_t k_least_effort = 300'000'000, k_effort_of_tet = 500, k_e
 constexpr std::uint64_t k_free_effort = 2'000'000, k_free_effort_of_tet = 100;
 /// After that effort, the run ends if the last passes, one of each kind, graded more than this number of tetrahedra per repaired one. Usual bad tetrahedra are
 /// repaired with a few thousand. On walls full of slivers the passes would continue for minutes.
-constexpr int k_dear_mend = 10'000;
+constexpr int k_costly_repair = 10'000;
 constexpr std::size_t k_judged_passes = 3;
 /// The run also ends after a single pass that graded this many times as many tetrahedra per repaired one. On tessellated cylinders with thousands of slivers
 /// one pass takes longer than all other steps.
@@ -191,13 +191,13 @@ bool Improver::is_dear(std::span<const std::uint64_t> left_after, std::span<cons
   const auto is_above = [&](std::size_t n_passes, double tries, std::uint64_t least) {
     const std::size_t n = left_after.size();
     if (n <= n_passes) return false;
-    const double mended = bad_after[n - 1 - n_passes] - bad_after[n - 1];
+    const double repaired = bad_after[n - 1 - n_passes] - bad_after[n - 1];
     const auto effort = static_cast<double>(left_after[n - 1 - n_passes] - left_after[n - 1]);
-    context_.debug("improvement, last " + std::to_string(n_passes) + " passes: " + std::to_string(bad_after.back()) + " bad, " + std::to_string(mended) +
+    context_.debug("improvement, last " + std::to_string(n_passes) + " passes: " + std::to_string(bad_after.back()) + " bad, " + std::to_string(repaired) +
                    " repaired with " + std::to_string(effort) + " tries");
-    return effort > std::max(tries * mended, static_cast<double>(least));
+    return effort > std::max(tries * repaired, static_cast<double>(least));
   };
-  return is_above(1, k_hopeless_factor * k_dear_mend, k_free_effort + k_free_effort_of_tet * n_about_) || is_above(k_judged_passes, k_dear_mend, 0);
+  return is_above(1, k_hopeless_factor * k_costly_repair, k_free_effort + k_free_effort_of_tet * n_about_) || is_above(k_judged_passes, k_costly_repair, 0);
 }
 
 int Improver::run(int max_passes) {
@@ -223,7 +223,7 @@ int Improver::run(int max_passes) {
     bad_after.push_back(amount_of_bad());
     if (left < free_until && is_dear(left_after, bad_after)) {
       context_.log(LogLevel::debug, "improvement of tetrahedra ends after " + std::to_string(pass) + " passes with " + std::to_string(bad_.size()) +
-                                        " bad tetrahedra left: the last passes needed more than " + std::to_string(k_dear_mend) +
+                                        " bad tetrahedra left: the last passes needed more than " + std::to_string(k_costly_repair) +
                                         " tries for each repaired tetrahedron");
       break;
     }
@@ -340,8 +340,8 @@ void Improver::work(Job& job, std::uint32_t number, std::uint64_t most_effort, R
   for (std::size_t i = 0; i < corners.size(); ++i)
     for (std::size_t k = 0; k < 4; ++k) corners[i][k] = local_[tets_[job.tets[i]][k]];
   for (const std::uint32_t t : job.bad)
-    if (const auto place = std::ranges::lower_bound(job.tets, t); place != job.tets.end() && *place == t)
-      job.worked.push_back(static_cast<std::uint32_t>(place - job.tets.begin()));
+    if (const auto location = std::ranges::lower_bound(job.tets, t); location != job.tets.end() && *location == t)
+      job.worked.push_back(static_cast<std::uint32_t>(location - job.tets.begin()));
 
   region.assign(points, roles, corners, {weights, local_layer_faces(job, number)});
   for (const std::uint32_t t : job.worked) job.n_failures.push_back(n_failures_[job.tets[t]]);

@@ -137,12 +137,12 @@ Region::Face Region::opposite(const Corners& c, std::size_t corner) {
 
 bool Region::apply(const Change& change, double least_drop) {
   if (!(change.drop > least_drop) || change.removed.empty()) return false;
-  const auto place = [&](std::uint32_t v) -> const Vec3& { return v == change.moved ? change.place : points_[v]; };
+  const auto location = [&](std::uint32_t v) -> const Vec3& { return v == change.moved ? change.location : points_[v]; };
   const auto weight = [&](std::uint32_t v) { return v == change.moved ? change.size_weight : size_weights_[v]; };
   compare_with(change.removed);
   double sum = 0.0;
   for (const Corners& c : change.added) {
-    const Vec3 &p0 = place(c[0]), &p1 = place(c[1]), &p2 = place(c[2]), &p3 = place(c[3]);
+    const Vec3 &p0 = location(c[0]), &p1 = location(c[1]), &p2 = location(c[2]), &p3 = location(c[3]);
     if (orient3d(p0, p1, p2, p3) <= 0) return false;
     const Grade g = grade(tet_shape(p0, p1, p2, p3, limits_.obtuse_weight), c, weight(c[0]) * weight(c[1]) * weight(c[2]) * weight(c[3]));
     if (g.of_angles < worst_allowed_ || g.of_angles <= 0.0) return false;
@@ -153,16 +153,16 @@ bool Region::apply(const Change& change, double least_drop) {
 
   if (is_logging_) {
     log_.push_back({change.removed, change.added.size(), change.moved, change.moved == points_.size(), {}, drop});
-    if (change.moved < points_.size()) log_.back().place = points_[change.moved];
+    if (change.moved < points_.size()) log_.back().location = points_[change.moved];
   }
   if (change.moved == points_.size()) {
-    points_.push_back(change.place);
+    points_.push_back(change.location);
     roles_.push_back(VertexRole::free);
     size_weights_.push_back(change.size_weight);
     changed_.push_back(0);
     incident_.resize(std::max(incident_.size(), points_.size()));
   } else if (change.moved != k_none) {
-    points_[change.moved] = change.place;
+    points_[change.moved] = change.location;
   }
   ++clock_;
   for (const std::uint32_t t : change.removed) {
@@ -220,7 +220,7 @@ void Region::undo(std::size_t log_size) {
       size_weights_.pop_back();
       changed_.pop_back();
     } else if (last.moved != k_none) {
-      points_[last.moved] = last.place;
+      points_[last.moved] = last.location;
     }
   }
 }

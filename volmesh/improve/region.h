@@ -83,8 +83,8 @@ class Region {
     double drop = 0.0;  ///< decrease of the sum of costs
     std::vector<std::uint32_t> removed;
     std::vector<Corners> added;
-    std::uint32_t moved = k_none;  ///< vertex that moves to `place`; if it is points().size(), a new vertex
-    Vec3 place;
+    std::uint32_t moved = k_none;  ///< vertex that moves to `location`; if it is points().size(), a new vertex
+    Vec3 location;
     double size_weight = 1.0;  ///< size weight of that vertex
   };
   static constexpr std::uint32_t k_none = 0xffffffffu;
@@ -142,14 +142,14 @@ class Region {
   struct Cavity {
     std::vector<std::uint32_t> tets;
     std::vector<Face> faces;  ///< outer faces of these tetrahedra
-    Vec3 place;
+    Vec3 location;
     double drop = 0.0;  ///< decrease of the sum of costs with the point at this location
   };
-  /// Returns the best cavity around a tetrahedron for a point at `place`; nothing if there is none.
-  std::optional<Cavity> cavity_of(std::uint32_t tet, const Vec3& place) const;
+  /// Returns the best cavity around a tetrahedron for a point at `location`; nothing if there is none.
+  std::optional<Cavity> cavity_of(std::uint32_t tet, const Vec3& location) const;
   void try_insertion(const Cavity& cavity, Change& best);
   /// Returns the location near `start` with the lowest cost. The cost is the sum over the tetrahedra between the location and the faces.
-  std::pair<Vec3, double> best_place(std::span<const Face> faces, const Vec3& start) const;
+  std::pair<Vec3, double> best_location(std::span<const Face> faces, const Vec3& start) const;
   double sum_of_costs(std::span<const Face> faces, const Vec3& apex, double stop_above) const;
   /// Returns the face opposite a corner, oriented so that the corner lies on its positive side.
   static Face opposite(const Corners& c, std::size_t corner);
@@ -173,7 +173,7 @@ class Region {
     std::size_t n_added = 0;
     std::uint32_t moved = k_none;
     bool is_new = false;
-    Vec3 place;  ///< previous location of `moved`
+    Vec3 location;  ///< previous location of `moved`
     double drop = 0.0;
   };
   std::vector<Applied> log_;  ///< changes during a detour

@@ -21,7 +21,7 @@ constexpr double k_difference = 1e-4;      ///< step of numerical gradients rela
 constexpr std::size_t k_max_cavity = 100;  ///< largest number of tetrahedra in a cavity
 /// Heights of trial points above a face, in units of the radius of its inscribed circle.
 constexpr std::array<double, 3> k_heights = {0.5, 1.0, 2.0};
-constexpr std::size_t k_smoothed_places = 3;
+constexpr std::size_t k_smoothed_locations = 3;
 
 /// Returns the shortest vector in the convex hull of gradients (Gilbert's iteration; a few digits are sufficient).
 Vec3 shortest_in_hull(std::span<const Vec3> gradients) {
@@ -46,7 +46,7 @@ double Region::sum_of_costs(std::span<const Face> faces, const Vec3& apex, doubl
   return sum;
 }
 
-std::pair<Vec3, double> Region::best_place(std::span<const Face> faces, const Vec3& start) const {
+std::pair<Vec3, double> Region::best_location(std::span<const Face> faces, const Vec3& start) const {
   Vec3 p = start;
   double now = sum_of_costs(faces, p, k_infinite);
   if (now == k_infinite || now == 0.0) return {p, now};
@@ -116,9 +116,9 @@ void Region::try_smoothing(std::uint32_t tet, Change& best) {
     }
     compare_with(incident_[v]);
     apex_weight_ = size_weights_[v];
-    const auto [place, after] = best_place(faces, points_[v]);
+    const auto [location, after] = best_location(faces, points_[v]);
     if (cost_before_ - after <= best.drop) continue;
-    best = Change{.drop = cost_before_ - after, .removed = incident_[v], .moved = v, .place = place, .size_weight = apex_weight_};
+    best = Change{.drop = cost_before_ - after, .removed = incident_[v], .moved = v, .location = location, .size_weight = apex_weight_};
     for (const Face& face : faces) best.added.push_back({face[0], face[1], face[2], v});
   }
 }
@@ -161,8 +161,8 @@ void Region::try_insertions(std::uint32_t tet, Change& best) {
   const auto center = [&](const Corners& x) { return 0.25 * (points_[x[0]] + points_[x[1]] + points_[x[2]] + points_[x[3]]); };
   apex_weight_ = mean_weight(c);
   std::vector<Cavity> cavities;
-  const auto add = [&](const Vec3& place) {
-    if (std::optional<Cavity> cavity = cavity_of(tet, place)) cavities.push_back(std::move(*cavity));
+  const auto add = [&](const Vec3& location) {
+    if (std::optional<Cavity> cavity = cavity_of(tet, location)) cavities.push_back(std::move(*cavity));
   };
   add(center(c));
   for (std::size_t k = 0; k < 4; ++k) {
@@ -180,7 +180,7 @@ void Region::try_insertions(std::uint32_t tet, Change& best) {
       for (std::size_t j = i + 1; j < 4; ++j) add(0.5 * (points_[c[i]] + points_[c[j]]));
   }
   std::ranges::stable_sort(cavities, std::ranges::greater(), &Cavity::drop);
-  for (std::size_t i = 0; i < std::min(cavities.size(), k_smoothed_places); ++i) try_insertion(cavities[i], best);
+  for (std::size_t i = 0; i < std::min(cavities.size(), k_smoothed_locations); ++i) try_insertion(cavities[i], best);
 }
 
 std::optional<Region::Cavity> Region::cavity_of(std::uint32_t tet, const Vec3& p) const {
@@ -228,17 +228,20 @@ std::optional<Region::Cavity> Region::cavity_of(std::uint32_t tet, const Vec3& p
   }
   if (best_drop == -k_infinite) return std::nullopt;
   cavity.resize(best_size);
-  Cavity result{.tets = std::move(cavity), .place = p, .drop = best_drop};
+  Cavity result{.tets = std::move(cavity), .location = p, .drop = best_drop};
   for (const Side& side : best_sides) result.faces.push_back(side.face);
   return result;
 }
 
 void Region::try_insertion(const Cavity& cavity, Change& best) {
   compare_with(cavity.tets);
-  const auto [place, after] = best_place(cavity.faces, cavity.place);
+  const auto [location, after] = best_location(cavity.faces, cavity.location);
   if (cost_before_ - after <= best.drop) return;
-  best = Change{
-      .drop = cost_before_ - after, .removed = cavity.tets, .moved = static_cast<std::uint32_t>(points_.size()), .place = place, .size_weight = apex_weight_};
+  best = Change{.drop = cost_before_ - after,
+                .removed = cavity.tets,
+                .moved = static_cast<std::uint32_t>(points_.size()),
+                .location = location,
+                .size_weight = apex_weight_};
   for (const Face& face : cavity.faces) best.added.push_back({face[0], face[1], face[2], best.moved});
 }
 

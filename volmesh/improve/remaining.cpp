@@ -35,14 +35,14 @@ std::string format(const char* pattern, auto... values) {
 /// The boundary around the vertices of bad tetrahedra.
 class Surroundings {
  public:
-  Surroundings(const TetraBoundary& boundary, const std::vector<std::uint8_t>& is_wanted) : boundary_(boundary), corner_(boundary.points.size(), k_none) {
+  Surroundings(const TetraBoundary& boundary, const std::vector<std::uint8_t>& is_needed) : boundary_(boundary), corner_(boundary.points.size(), k_none) {
     for (std::uint32_t t = 0; t < boundary.triangles.size(); ++t) {
       const auto& v = boundary.triangles[t];
       for (std::size_t k = 0; k < 3; ++k) {
         const std::uint32_t a = v[k], b = v[(k + 1) % 3];
-        if (!is_wanted[a]) continue;
+        if (!is_needed[a]) continue;
         corner_[a] = std::min(corner_[a], corner_angle(point(a), point(b), point(v[(k + 2) % 3])));
-        if (is_wanted[b]) triangle_[{a, b}] = t;
+        if (is_needed[b]) triangle_[{a, b}] = t;
       }
     }
   }
@@ -105,15 +105,15 @@ class Surroundings {
 /// Finds the boundary triangle that forces each bad tetrahedron among the boundary triangles that are faces of the tetrahedron.
 void find_forcing(const TetraBoundary& boundary, const TetraResult& tets, const Surroundings& surroundings, const ImproveOptions& options,
                   std::vector<Remaining>& bad, const RunContext& context) {
-  std::vector<std::uint32_t> wanted;
+  std::vector<std::uint32_t> target;
   for (const Remaining& r : bad)
-    for (const std::uint32_t t : surroundings.faces(tets.tetrahedra[r.tet])) wanted.push_back(t);
-  std::ranges::sort(wanted);
-  wanted.erase(std::unique(wanted.begin(), wanted.end()), wanted.end());
-  const std::vector<std::uint32_t> forcing = forcing_triangles(boundary, wanted, options.improve_min_angle, options.improve_max_angle, context);
+    for (const std::uint32_t t : surroundings.faces(tets.tetrahedra[r.tet])) target.push_back(t);
+  std::ranges::sort(target);
+  target.erase(std::unique(target.begin(), target.end()), target.end());
+  const std::vector<std::uint32_t> forcing = forcing_triangles(boundary, target, options.improve_min_angle, options.improve_max_angle, context);
   for (Remaining& r : bad)
     for (const std::uint32_t t : surroundings.faces(tets.tetrahedra[r.tet]))
-      r.triangle = std::min(r.triangle, forcing[static_cast<std::size_t>(std::ranges::lower_bound(wanted, t) - wanted.begin())]);
+      r.triangle = std::min(r.triangle, forcing[static_cast<std::size_t>(std::ranges::lower_bound(target, t) - target.begin())]);
 }
 
 }  // namespace
@@ -122,22 +122,22 @@ void list_remaining(const TetraBoundary& boundary, const TetraResult& tets, std:
                     ImproveReport& report, const RunContext& context) {
   if (bad_tets.empty()) return;
   const std::size_t n_fixed = boundary.points.size();
-  const auto place = [&](std::uint32_t v) { return v < n_fixed ? boundary.points[v] : tets.new_points[v - n_fixed]; };
+  const auto location = [&](std::uint32_t v) { return v < n_fixed ? boundary.points[v] : tets.new_points[v - n_fixed]; };
   std::vector<Remaining> bad;
-  std::vector<std::uint8_t> is_wanted(n_fixed, 0);
+  std::vector<std::uint8_t> is_needed(n_fixed, 0);
   for (const std::uint32_t t : bad_tets) {
     const Corners& c = tets.tetrahedra[t];
-    const auto [of_smallest, of_largest] = dihedral_cosines(place(c[0]), place(c[1]), place(c[2]), place(c[3]));
+    const auto [of_smallest, of_largest] = dihedral_cosines(location(c[0]), location(c[1]), location(c[2]), location(c[3]));
     bad.push_back({t, std::acos(of_smallest), std::acos(of_largest)});
     bool is_free = true;
     for (const std::uint32_t v : c)
       if (v < n_fixed) {
-        is_wanted[v] = 1;
+        is_needed[v] = 1;
         is_free = false;
       }
     report.n_bad_free_after += is_free;
   }
-  const Surroundings surroundings(boundary, is_wanted);
+  const Surroundings surroundings(boundary, is_needed);
   find_forcing(boundary, tets, surroundings, options, bad, context);
   std::ranges::sort(bad, [&](const Remaining& a, const Remaining& b) {
     const double of_a = a.badness(options), of_b = b.badness(options);
@@ -161,7 +161,7 @@ void list_remaining(const TetraBoundary& boundary, const TetraResult& tets, std:
     } else {
       what += "not forced, away from the boundary";
     }
-    report.remaining.push_back({0.25 * (place(c[0]) + place(c[1]) + place(c[2]) + place(c[3])), what});
+    report.remaining.push_back({0.25 * (location(c[0]) + location(c[1]) + location(c[2]) + location(c[3])), what});
   }
 }
 

@@ -24,14 +24,14 @@ struct Base {
 
 class BaseSurvey {
  public:
-  BaseSurvey(const Survey& survey, const MeshingSite& site)
+  BaseSurvey(const Survey& survey, const LayerDomain& layer_domain)
       : survey_(survey),
-        base_(site.base),
-        wall_(site.base.wall),
-        topology_(site.base.topology),
-        scale_(scale_of(site.base, site.options.envelope)),
-        map_(survey.mesh, site.domain),
-        sharp_cosine_(std::cos(site.options.envelope.feature_angle)) {}
+        base_(layer_domain.base),
+        wall_(layer_domain.base.wall),
+        topology_(layer_domain.base.topology),
+        scale_(scale_of(layer_domain.base, layer_domain.options.envelope)),
+        map_(survey.mesh, layer_domain.domain),
+        sharp_cosine_(std::cos(layer_domain.options.envelope.feature_angle)) {}
 
   void run() const {
     const double ratio = survey_.request.limits.base_ratio;
@@ -42,7 +42,7 @@ class BaseSurvey {
           for (std::size_t i = begin; i < end; ++i) {
             const HalfedgeId h(static_cast<std::uint64_t>(i));
             if (!is_ridge(h)) continue;
-            const double height = std::max(asked_height(base_, scale_, topology_.from(h)), asked_height(base_, scale_, topology_.to(h)));
+            const double height = std::max(requested_height(base_, scale_, topology_.from(h)), requested_height(base_, scale_, topology_.to(h)));
             if (const double t = thickness_behind(h, height / ratio); t > 0.0) part.push_back({h, t, height});
           }
           return part;
@@ -65,17 +65,17 @@ class BaseSurvey {
   /// Returns the thickness of the strip beside the half-edge, at its middle; 0 if there is no strip or it is thicker than `most`.
   double thickness_behind(HalfedgeId first, double most) const {
     const Vec3 edge = normalized(along(first));
-    Point place = 0.5 * (wall_.points[topology_.from(first)] + wall_.points[topology_.to(first)]);
+    Point location = 0.5 * (wall_.points[topology_.from(first)] + wall_.points[topology_.to(first)]);
     Vec3 direction = cross(normal(first), edge);
     double walked = 0.0;
     HalfedgeId h = first;
     for (int step = 0; step < k_most_steps; ++step) {
-      const auto [exit, to] = across(h, place, direction);
+      const auto [exit, to] = across(h, location, direction);
       if (!exit.is_valid()) return 0.0;
-      walked += distance(place, to);
+      walked += distance(location, to);
       if (walked > most || topology_.is_boundary(exit)) return 0.0;
       if (is_sharp(exit)) return is_ridge(exit) && norm(cross(edge, normalized(along(exit)))) < k_taper ? walked : 0.0;
-      place = to;
+      location = to;
       h = topology_.twin(exit);
       const Vec3 n = normal(h);
       direction = normalized(direction - dot(direction, n) * n);
@@ -84,14 +84,14 @@ class BaseSurvey {
   }
 
   /// Returns the point at which a straight line leaves the triangle that it entered across the half-edge `h`; invalid if the line runs along an edge.
-  std::pair<HalfedgeId, Point> across(HalfedgeId h, const Point& place, const Vec3& direction) const {
+  std::pair<HalfedgeId, Point> across(HalfedgeId h, const Point& location, const Vec3& direction) const {
     const Vec3 side = cross(normal(h), direction);  // direction to the left of the line
     const HalfedgeId second = next(h), third = next(second);
     const Point& corner = wall_.points[topology_.to(second)];  // corner opposite to the edge of entry
-    const HalfedgeId exit = dot(side, corner - place) > 0.0 ? second : third;
+    const HalfedgeId exit = dot(side, corner - location) > 0.0 ? second : third;
     const Point &a = wall_.points[topology_.from(exit)], &b = wall_.points[topology_.to(exit)];
-    const double left = dot(side, a - place), right = dot(side, b - place);
-    if (left == right) return {HalfedgeId(), place};
+    const double left = dot(side, a - location), right = dot(side, b - location);
+    if (left == right) return {HalfedgeId(), location};
     return {exit, a + std::clamp(left / (left - right), 0.0, 1.0) * (b - a)};
   }
 
@@ -105,13 +105,13 @@ class BaseSurvey {
       where.push_back(map_.triangle(triangle_of(base.edge)));
     }
     const auto of = [&](HalfedgeId h) { return *std::ranges::find_if(bases, [&](const Base& base) { return base.edge == h; }); };
-    const auto listed = worst(suspects, std::max<std::size_t>(survey_.n_places(), 1));
+    const auto listed = worst(suspects, std::max<std::size_t>(survey_.n_locations(), 1));
     for (const auto& s : listed) {
-      if (finding.places.size() >= survey_.n_places()) break;
+      if (finding.locations.size() >= survey_.n_locations()) break;
       const Base base = of(s.id);
-      finding.places.push_back({0.5 * (wall_.points[topology_.from(s.id)] + wall_.points[topology_.to(s.id)]),
-                                survey_.patch_of(map_.triangle(triangle_of(s.id))), s.badness,
-                                in_metres(base.thickness, k_text_digits) + " thick under a layer of " + in_metres(base.height, k_text_digits)});
+      finding.locations.push_back({0.5 * (wall_.points[topology_.from(s.id)] + wall_.points[topology_.to(s.id)]),
+                                   survey_.patch_of(map_.triangle(triangle_of(s.id))), s.badness,
+                                   in_metres(base.thickness, k_text_digits) + " thick under a layer of " + in_metres(base.height, k_text_digits)});
     }
     const Base worst_base = of(listed.front().id);
     finding.value = listed.front().badness;
@@ -134,6 +134,6 @@ class BaseSurvey {
 
 }  // namespace
 
-void survey_bases(const Survey& survey, const MeshingSite& site) { BaseSurvey(survey, site).run(); }
+void survey_bases(const Survey& survey, const LayerDomain& layer_domain) { BaseSurvey(survey, layer_domain).run(); }
 
 }  // namespace sterna::volmesh

@@ -50,11 +50,11 @@ void survey_bodies(const Survey& survey, const Topology& topology) {
   Finding cavities{.kind = FindingKind::cavity, .severity = Severity::warn};
   Finding bodies{.kind = FindingKind::bodies, .severity = Severity::note, .count = static_cast<std::int64_t>(parts.size())};
   for (const BodyPart& part : parts) {
-    const FindingPlace place{part.box.center(), survey.patch_of(part.first), part.volume,
-                             "part of " + count_of(part.n_triangles, "triangle", "triangles") + ", " + number_text(part.volume, k_text_digits) + " m^3"};
+    const FindingLocation location{part.box.center(), survey.patch_of(part.first), part.volume,
+                                   "part of " + count_of(part.n_triangles, "triangle", "triangles") + ", " + number_text(part.volume, k_text_digits) + " m^3"};
     n_cavities += is_cavity(part);
-    if (is_cavity(part) && cavities.places.size() < survey.n_places()) cavities.places.push_back(place);
-    if (bodies.places.size() < survey.n_places()) bodies.places.push_back(place);
+    if (is_cavity(part) && cavities.locations.size() < survey.n_locations()) cavities.locations.push_back(location);
+    if (bodies.locations.size() < survey.n_locations()) bodies.locations.push_back(location);
   }
   if (n_cavities > 0) {
     cavities.count = n_cavities;

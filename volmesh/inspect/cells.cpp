@@ -25,8 +25,9 @@ struct Cells {
 };
 
 double height_of(const LayerBase& base, const EnvelopeScale& scale, VertexId v, int n) {
-  const double asked = scale.total_height(v);
-  const double height = is_automatic(asked) ? height_by_edge(scale.first_step(v), base.mean_edge[v], scale.max_growth(v), n, scale.has_common_growth()) : asked;
+  const double requested = scale.total_height(v);
+  const double height =
+      is_automatic(requested) ? height_by_edge(scale.first_step(v), base.mean_edge[v], scale.max_growth(v), n, scale.has_common_growth()) : requested;
   return std::min(height, scale.max_thickness(v));
 }
 
@@ -41,14 +42,14 @@ Cells cells_at(const LayerBase& base, const EnvelopeScale& scale, VertexId v, in
 Cells cells_at(const LayerBase& base, const EnvelopeScale& scale, VertexId v) { return cells_at(base, scale, v, scale.n(v)); }
 
 struct Misfit {
-  std::vector<Suspect<VertexId>> places;
+  std::vector<Suspect<VertexId>> locations;
   double area = 0.0;  ///< fraction of the area
 };
 
 class CellSurvey {
  public:
-  CellSurvey(const Survey& survey, const MeshingSite& site)
-      : survey_(survey), base_(site.base), scale_(scale_of(site.base, site.options.envelope)), map_(survey.mesh, site.domain) {}
+  CellSurvey(const Survey& survey, const LayerDomain& layer_domain)
+      : survey_(survey), base_(layer_domain.base), scale_(scale_of(layer_domain.base, layer_domain.options.envelope)), map_(survey.mesh, layer_domain.domain) {}
 
   void run() const {
     const double ratio = survey_.request.limits.top_ratio;
@@ -68,7 +69,7 @@ class CellSurvey {
       const double r = cells.top_ratio();
       top[v.index()] = r;
       const auto note = [&](Misfit& misfit, double badness) {
-        misfit.places.push_back({v, badness});
+        misfit.locations.push_back({v, badness});
         misfit.area += area;
       };
       if (scale_.h0(v) > cells.edge) note(tall, scale_.h0(v) / cells.edge);
@@ -77,37 +78,37 @@ class CellSurvey {
     }
     for (Misfit* misfit : {&thin, &thick, &tall}) misfit->area /= all;
     survey_.add_field("top_ratio", "requested height of the last layer over 0.816 edge lengths", "", true, map_.field(top));
-    if (!tall.places.empty()) add_tall(tall);
+    if (!tall.locations.empty()) add_tall(tall);
     if (thin.area > k_noticed_area) add_thin(thin);
     if (thick.area > k_noticed_area) add_thick(thick);
   }
 
  private:
   void add(Finding finding, const Misfit& misfit, bool is_inverse) const {
-    finding.count = static_cast<std::int64_t>(misfit.places.size());
+    finding.count = static_cast<std::int64_t>(misfit.locations.size());
     finding.share = misfit.area;
     std::vector<TriangleId> where;
-    for (const auto& s : misfit.places)
+    for (const auto& s : misfit.locations)
       for (const HalfedgeId h : base_.topology.outgoing(s.id)) where.push_back(map_.triangle(triangle_of(h)));
-    for (const auto& s : worst(misfit.places, survey_.n_places())) {
+    for (const auto& s : worst(misfit.locations, survey_.n_locations())) {
       const Cells cells = cells_at(base_, scale_, s.id);
-      finding.places.push_back({base_.wall.points[s.id], survey_.patch_of(map_.triangle(triangle_of(base_.topology.outgoing(s.id).front()))),
-                                is_inverse ? 1.0 / s.badness : s.badness,
-                                "vertex " + std::to_string(s.id.value()) + ": first cell " + in_metres(cells.first, k_text_digits) + ", last " +
-                                    in_metres(cells.last, k_text_digits) + ", edges " + in_metres(cells.edge, k_text_digits)});
+      finding.locations.push_back({base_.wall.points[s.id], survey_.patch_of(map_.triangle(triangle_of(base_.topology.outgoing(s.id).front()))),
+                                   is_inverse ? 1.0 / s.badness : s.badness,
+                                   "vertex " + std::to_string(s.id.value()) + ": first cell " + in_metres(cells.first, k_text_digits) + ", last " +
+                                       in_metres(cells.last, k_text_digits) + ", edges " + in_metres(cells.edge, k_text_digits)});
     }
     add_finding(survey_.report, std::move(finding), where);
   }
 
   /// Returns the vertex at which one tenth of the mismatches are worse. Recommendations are made for this vertex, so that single locations do not determine
   /// them.
-  VertexId typical(const Misfit& misfit) const { return worst(misfit.places, misfit.places.size() / 10 + 1).back().id; }
+  VertexId typical(const Misfit& misfit) const { return worst(misfit.locations, misfit.locations.size() / 10 + 1).back().id; }
 
   void add_tall(const Misfit& tall) const {
-    Finding finding{.kind = FindingKind::tall_first, .severity = Severity::warn, .value = worst(tall.places, 1).front().badness, .limit = 1.0};
+    Finding finding{.kind = FindingKind::tall_first, .severity = Severity::warn, .value = worst(tall.locations, 1).front().badness, .limit = 1.0};
     finding.text = "the first cell is taller than the edges of the wall on " + percent(tall.area) + " of the wall area, up to " +
                    number_text(finding.value, k_text_digits) + " times: first_height and the surface are probably not in the same unit";
-    const VertexId v = worst(tall.places, 1).front().id;
+    const VertexId v = worst(tall.locations, 1).front().id;
     finding.advice = "first_height = " + number_text(0.1 * base_.mean_edge[v], k_advice_digits) + " or less, or another unit of the surface (unit = mm)";
     add(std::move(finding), tall, false);
   }
@@ -115,7 +116,7 @@ class CellSurvey {
   void add_thin(const Misfit& thin) const {
     Finding finding{.kind = FindingKind::thin_top,
                     .severity = Severity::warn,
-                    .value = 1.0 / worst(thin.places, 1).front().badness,
+                    .value = 1.0 / worst(thin.locations, 1).front().badness,
                     .limit = 1.0 / survey_.request.limits.top_ratio};
     finding.text = "on " + percent(thin.area) + " of the walls' area the last layer is thinner than " + number_text(finding.limit, k_text_digits) +
                    " of the tetrahedra above it (" + number_text(finding.value, k_text_digits) + " at the worst): a jump of cell sizes at the top of the layer";
@@ -141,8 +142,10 @@ class CellSurvey {
   }
 
   void add_thick(const Misfit& thick) const {
-    Finding finding{
-        .kind = FindingKind::thick_top, .severity = Severity::warn, .value = worst(thick.places, 1).front().badness, .limit = survey_.request.limits.top_ratio};
+    Finding finding{.kind = FindingKind::thick_top,
+                    .severity = Severity::warn,
+                    .value = worst(thick.locations, 1).front().badness,
+                    .limit = survey_.request.limits.top_ratio};
     finding.text = "on " + percent(thick.area) + " of the walls' area the last layer is thicker than " + number_text(finding.limit, k_text_digits) +
                    " times the tetrahedra above it (" + number_text(finding.value, k_text_digits) +
                    " at the worst): a jump of cell sizes at the top of the layer";
@@ -164,20 +167,20 @@ class CellSurvey {
 
 }  // namespace
 
-double asked_height(const LayerBase& base, const EnvelopeScale& scale, VertexId v) { return height_of(base, scale, v, scale.n(v)); }
+double requested_height(const LayerBase& base, const EnvelopeScale& scale, VertexId v) { return height_of(base, scale, v, scale.n(v)); }
 
-void survey_cells(const Survey& survey, const MeshingSite& site) { CellSurvey(survey, site).run(); }
+void survey_cells(const Survey& survey, const LayerDomain& layer_domain) { CellSurvey(survey, layer_domain).run(); }
 
 void survey_y_plus(const Survey& survey) {
   const double h0 = survey.request.volume.envelope.first_height;
   if (!survey.request.flow || is_automatic(h0)) return;
-  const double wanted = survey.request.limits.wanted_y_plus;
-  const FirstHeight first = first_height({.y_plus = wanted}, *survey.request.flow);
-  const double y_plus = wanted * h0 / first.height;
-  if (y_plus <= k_y_plus_factor * wanted && y_plus * k_y_plus_factor >= wanted) return;
-  Finding finding{.kind = FindingKind::y_plus, .severity = y_plus > wanted ? Severity::warn : Severity::note, .count = 1, .value = y_plus, .limit = wanted};
+  const double target = survey.request.limits.wanted_y_plus;
+  const FirstHeight first = first_height({.y_plus = target}, *survey.request.flow);
+  const double y_plus = target * h0 / first.height;
+  if (y_plus <= k_y_plus_factor * target && y_plus * k_y_plus_factor >= target) return;
+  Finding finding{.kind = FindingKind::y_plus, .severity = y_plus > target ? Severity::warn : Severity::note, .count = 1, .value = y_plus, .limit = target};
   finding.text = "first_height = " + in_metres(h0, k_text_digits) + " is y+ " + number_text(y_plus, k_text_digits) +
-                 " on a flat plate in this flow, the target is " + number_text(wanted, k_text_digits);
+                 " on a flat plate in this flow, the target is " + number_text(target, k_text_digits);
   finding.advice = "first_height = " + number_text(first.height, k_text_digits) + " (" + describe(first) + ")";
   add_finding(survey.report, std::move(finding), {});
 }

@@ -91,11 +91,11 @@ void survey_contacts(const Survey& survey, const LayerBase& base, const Collider
     const TriangleId opposite = map.triangle(contact.opposite);
     where.push_back(opposite);
     for (const HalfedgeId h : base.topology.outgoing(contact.vertex)) where.push_back(map.triangle(triangle_of(h)));
-    if (finding.places.size() >= survey.n_places()) continue;
+    if (finding.locations.size() >= survey.n_locations()) continue;
     const double gap = contact.share * base.mean_edge[contact.vertex];
-    finding.places.push_back({base.wall.points[contact.vertex], survey.patch_of(where.back()), contact.share,
-                              "vertex " + std::to_string(contact.vertex.value()) + ", " + in_metres(gap, k_text_digits) + " from triangle " +
-                                  std::to_string(opposite.value()) + " (" + survey.patch_of(opposite) + ")"});
+    finding.locations.push_back({base.wall.points[contact.vertex], survey.patch_of(where.back()), contact.share,
+                                 "vertex " + std::to_string(contact.vertex.value()) + ", " + in_metres(gap, k_text_digits) + " from triangle " +
+                                     std::to_string(opposite.value()) + " (" + survey.patch_of(opposite) + ")"});
   }
   finding.text = count_of(finding.count, "vertex nearly touches", "vertices nearly touch") + " the opposite wall, closer than " +
                  number_text(limit, k_text_digits) + " edge lengths (" + number_text(finding.value, k_text_digits) +

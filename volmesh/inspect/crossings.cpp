@@ -20,20 +20,20 @@ bool survey_crossings(const Survey& survey) {
   if (crossings.total == 0) return true;
   Finding finding{.kind = FindingKind::crossing, .severity = Severity::error, .count = crossings.total};
   std::vector<TriangleId> where;
-  std::vector<std::uint8_t> is_place(mesh.n_triangles(), 0);
+  std::vector<std::uint8_t> is_location(mesh.n_triangles(), 0);
   for (const auto& [a, b] : crossings.pairs) {
     const TriangleId first(a), second(b);
     where.push_back(first);
     where.push_back(second);
-    if (finding.places.size() >= survey.n_places()) continue;
+    if (finding.locations.size() >= survey.n_locations()) continue;
     // The smaller triangle gives the more precise location. Each location is listed once, so that the list is not filled by one large triangle.
     const auto area = [&](TriangleId t) {
       return triangle_area(mesh.points[mesh.triangles[t][0]], mesh.points[mesh.triangles[t][1]], mesh.points[mesh.triangles[t][2]]);
     };
     const TriangleId smaller = area(first) <= area(second) ? first : second;
-    if (is_place[smaller.index()] || is_place[first.index()]) continue;
-    is_place[smaller.index()] = is_place[first.index()] = 1;
-    finding.places.push_back(
+    if (is_location[smaller.index()] || is_location[first.index()]) continue;
+    is_location[smaller.index()] = is_location[first.index()] = 1;
+    finding.locations.push_back(
         {survey.middle(smaller), survey.patch_of(smaller), 0.0,
          "triangles " + std::to_string(a) + " (" + survey.patch_of(first) + ") and " + std::to_string(b) + " (" + survey.patch_of(second) + ")"});
   }

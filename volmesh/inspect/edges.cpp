@@ -51,8 +51,8 @@ void add_edges(const Survey& survey, const Topology& topology, Finding finding, 
     where.push_back(triangle_of(s.id));
     if (!topology.is_boundary(s.id)) where.push_back(triangle_of(topology.twin(s.id)));
   }
-  for (const auto& s : worst(suspects, survey.n_places()))
-    finding.places.push_back({middle_of(survey.mesh, topology, s.id), survey.patch_of(triangle_of(s.id)), scale * s.badness, edge_text(s.id, topology)});
+  for (const auto& s : worst(suspects, survey.n_locations()))
+    finding.locations.push_back({middle_of(survey.mesh, topology, s.id), survey.patch_of(triangle_of(s.id)), scale * s.badness, edge_text(s.id, topology)});
   add_finding(survey.report, std::move(finding), where);
 }
 

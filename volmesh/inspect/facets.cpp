@@ -15,26 +15,26 @@ double smallest_angle(const std::array<Point, 3>& p) {
 
 }  // namespace
 
-void survey_needles(const Survey& survey) {
+void survey_slivers(const Survey& survey) {
   const double limit = survey.request.limits.min_angle;
   std::vector<float> angles(survey.mesh.n_triangles());
-  const auto needles = find_suspects<TriangleId>(survey.context, survey.mesh.n_triangles(), [&](TriangleId t, auto& list) {
+  const auto slivers = find_suspects<TriangleId>(survey.context, survey.mesh.n_triangles(), [&](TriangleId t, auto& list) {
     const double angle = smallest_angle(corners(survey.mesh, t));
     angles[t.index()] = static_cast<float>(angle / k_degree);
     if (!(angle >= limit)) list.push_back({t, -angle});  // this is also true for coordinates that are not finite
   });
   survey.add_field("smallest_angle", "smallest angle of the triangle", "deg", false, std::move(angles));
-  if (needles.empty()) return;
+  if (slivers.empty()) return;
   Finding finding{.kind = FindingKind::needle, .severity = Severity::warn, .limit = limit / k_degree, .unit = "deg"};
-  finding.value = -worst(needles, 1).front().badness / k_degree;
-  finding.text = count_of(static_cast<std::int64_t>(needles.size()), "triangle has", "triangles have") + " an angle below " +
+  finding.value = -worst(slivers, 1).front().badness / k_degree;
+  finding.text = count_of(static_cast<std::int64_t>(slivers.size()), "triangle has", "triangles have") + " an angle below " +
                  number_text(finding.limit, k_text_digits) + " deg, the smallest " + number_text(finding.value, k_text_digits) +
                  " deg: cells there have a low quality, and the layer becomes low";
   finding.advice =
       "re-mesh the surface (`sterna remesh`, or surface_mesh of the CAD model), or weld the ends of the short edges: weld_tolerance slightly above their "
       "length";
-  survey.add(std::move(finding), needles, [&](const Suspect<TriangleId>& s) {
-    return FindingPlace{survey.middle(s.id), survey.patch_of(s.id), -s.badness / k_degree, "triangle " + std::to_string(s.id.value())};
+  survey.add(std::move(finding), slivers, [&](const Suspect<TriangleId>& s) {
+    return FindingLocation{survey.middle(s.id), survey.patch_of(s.id), -s.badness / k_degree, "triangle " + std::to_string(s.id.value())};
   });
 }
 

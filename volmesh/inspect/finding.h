@@ -56,7 +56,7 @@ enum class FindingKind : std::uint8_t {
 };
 std::string_view to_string(FindingKind kind);
 
-struct FindingPlace {
+struct FindingLocation {
   Point position;
   std::string patch;
   double value = 0.0;  ///< value in the unit of the finding
@@ -72,10 +72,10 @@ struct Finding {
   double share = k_no_value;  ///< fraction of the wall's area; NaN: the finding has no area
   double value = k_no_value;  ///< the worst value; NaN: the finding has no value
   double limit = k_no_value;
-  std::string unit;                  ///< unit of value and limit: "m", "deg" or empty
-  std::string text;                  ///< one sentence for the report
-  std::string advice;                ///< one line with a remedy; empty if no action is needed
-  std::vector<FindingPlace> places;  ///< worst locations first, at most InspectOptions::max_places
+  std::string unit;                        ///< unit of value and limit: "m", "deg" or empty
+  std::string text;                        ///< one sentence for the report
+  std::string advice;                      ///< one line with a remedy; empty if no action is needed
+  std::vector<FindingLocation> locations;  ///< worst locations first, at most InspectOptions::max_places
 };
 
 /// Predicted layer, computed by the first steps of the envelope.

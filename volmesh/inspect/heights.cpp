@@ -41,9 +41,9 @@ void smooth_tangled(const LayerBase& base, const Classification& classes, Envelo
   smooth_directions(base, classes, k_tangled_sweeps, envelope, context, &region);
 }
 
-Heights predict(MeshingSite& site, const RunContext& context) {
-  const LayerBase& base = site.base;
-  const EnvelopeOptions& options = site.options.envelope;
+Heights predict(LayerDomain& layer_domain, const RunContext& context) {
+  const LayerBase& base = layer_domain.base;
+  const EnvelopeOptions& options = layer_domain.options.envelope;
   const Classification classes = classify_vertices(base, options, context);
   Heights heights{initial_envelope(base, options, context), {}};
   Envelope& envelope = heights.envelope;
@@ -56,8 +56,8 @@ Heights predict(MeshingSite& site, const RunContext& context) {
   unwarp(base, options, HeightLimit::warp, envelope, context);
   regrow(base, envelope, context);
   context.check_stop();
-  heights.gaps = share_gaps(base, options, site.collider, envelope, context);
-  keep_distance(base, options, site.collider, envelope, context);
+  heights.gaps = share_gaps(base, options, layer_domain.collider, envelope, context);
+  keep_distance(base, options, layer_domain.collider, envelope, context);
   regrow(base, envelope, context);
   return heights;
 }
@@ -76,13 +76,13 @@ Cause cause_of(HeightLimit limit) {
 
 class HeightSurvey {
  public:
-  HeightSurvey(const Survey& survey, const MeshingSite& site, const Heights& heights)
+  HeightSurvey(const Survey& survey, const LayerDomain& layer_domain, const Heights& heights)
       : survey_(survey),
-        base_(site.base),
+        base_(layer_domain.base),
         envelope_(heights.envelope),
         gaps_(heights.gaps),
-        scale_(scale_of(site.base, site.options.envelope)),
-        map_(survey.mesh, site.domain) {
+        scale_(scale_of(layer_domain.base, layer_domain.options.envelope)),
+        map_(survey.mesh, layer_domain.domain) {
     for (const double a : base_.vertex_area) all_ += a;
   }
 
@@ -166,14 +166,15 @@ class HeightSurvey {
     std::vector<TriangleId> where;
     for (const auto& s : suspects)
       for (const HalfedgeId h : base_.topology.outgoing(s.id)) where.push_back(map_.triangle(triangle_of(h)));
-    for (const auto& s : worst(suspects, survey_.n_places()))
-      finding.places.push_back({base_.wall.points[s.id], patch_of(s.id), scale * s.badness,
-                                "vertex " + std::to_string(s.id.value()) + ": " + in_metres(envelope_.height[s.id], k_text_digits) + " of " +
-                                    in_metres(envelope_.target[s.id], k_text_digits) + ", " + std::string(to_string(envelope_.limit[s.id])) + gap_text(s.id)});
+    for (const auto& s : worst(suspects, survey_.n_locations()))
+      finding.locations.push_back({base_.wall.points[s.id], patch_of(s.id), scale * s.badness,
+                                   "vertex " + std::to_string(s.id.value()) + ": " + in_metres(envelope_.height[s.id], k_text_digits) + " of " +
+                                       in_metres(envelope_.target[s.id], k_text_digits) + ", " + std::string(to_string(envelope_.limit[s.id])) +
+                                       gap_text(s.id)});
     add_finding(survey_.report, std::move(finding), where);
   }
   std::string gap_text(VertexId v) const {
-    const auto hit = std::lower_bound(gaps_.begin(), gaps_.end(), v, [](const WallGap& g, VertexId wanted) { return g.vertex < wanted; });
+    const auto hit = std::lower_bound(gaps_.begin(), gaps_.end(), v, [](const WallGap& g, VertexId searched) { return g.vertex < searched; });
     return hit != gaps_.end() && hit->vertex == v ? ", " + in_metres(hit->gap, k_text_digits) + " wide" : "";
   }
 
@@ -249,9 +250,9 @@ class HeightSurvey {
 
 }  // namespace
 
-void survey_heights(const Survey& survey, MeshingSite& site) {
-  const Heights heights = predict(site, survey.context);
-  const HeightSurvey result(survey, site, heights);
+void survey_heights(const Survey& survey, LayerDomain& layer_domain) {
+  const Heights heights = predict(layer_domain, survey.context);
+  const HeightSurvey result(survey, layer_domain, heights);
   result.add_prediction();
   result.add_fields();
   result.add_findings();

@@ -44,11 +44,11 @@ Point Survey::middle(TriangleId t) const {
 }
 
 void Survey::add(Finding finding, const std::vector<Suspect<TriangleId>>& suspects,
-                 const std::function<FindingPlace(const Suspect<TriangleId>&)>& place_of) const {
+                 const std::function<FindingLocation(const Suspect<TriangleId>&)>& location_of) const {
   finding.count = static_cast<std::int64_t>(suspects.size());
   std::vector<TriangleId> where;
   for (const auto& s : suspects) where.push_back(s.id);
-  for (const auto& s : worst(suspects, n_places())) finding.places.push_back(place_of(s));
+  for (const auto& s : worst(suspects, n_locations())) finding.locations.push_back(location_of(s));
   add_finding(report, std::move(finding), where);
 }
 

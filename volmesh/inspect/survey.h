@@ -13,7 +13,7 @@
 #include "geom/math/constants.h"
 #include "geom/mesh/topology.h"
 #include "volmesh/inspect/inspect.h"
-#include "volmesh/site/site.h"
+#include "volmesh/layer_domain/layer_domain.h"
 
 namespace sterna::volmesh {
 
@@ -41,11 +41,12 @@ struct Survey {
   const RunContext& context;
   InspectReport& report;
 
-  std::size_t n_places() const { return static_cast<std::size_t>(request.limits.max_places); }
+  std::size_t n_locations() const { return static_cast<std::size_t>(request.limits.max_places); }
   const std::string& patch_of(TriangleId t) const { return mesh.patches[mesh.triangle_patch[t]].name; }
   Point middle(TriangleId t) const;
   /// Adds a finding whose worst locations are triangles, and sets the field "finding".
-  void add(Finding finding, const std::vector<Suspect<TriangleId>>& suspects, const std::function<FindingPlace(const Suspect<TriangleId>&)>& place_of) const;
+  void add(Finding finding, const std::vector<Suspect<TriangleId>>& suspects,
+           const std::function<FindingLocation(const Suspect<TriangleId>&)>& location_of) const;
   void add_field(std::string name, std::string title, std::string unit, bool is_at_vertices, std::vector<float> values) const {
     report.fields.push_back({std::move(name), std::move(title), std::move(unit), is_at_vertices, std::move(values)});
   }
@@ -91,7 +92,7 @@ class WallMap {
 };
 
 /// facets.cpp: finds sliver triangles. It needs no topology.
-void survey_needles(const Survey& survey);
+void survey_slivers(const Survey& survey);
 /// unit.cpp: checks the body length.
 void survey_unit(const Survey& survey);
 /// edges.cpp: finds folds, size jumps, short edges, and edges of smooth surfaces (below the feature angle) that bend too much.
@@ -106,15 +107,15 @@ bool survey_crossings(const Survey& survey);
 /// visibility.cpp: checks the visibility of all facets of a vertex from one growth direction.
 void survey_visibility(const Survey& survey, const LayerBase& base, const WallMap& map);
 /// heights.cpp: predicts the layer by the first steps of its envelope.
-void survey_heights(const Survey& survey, MeshingSite& site);
+void survey_heights(const Survey& survey, LayerDomain& layer_domain);
 /// cells.cpp: compares first height and last layer with the edges.
-void survey_cells(const Survey& survey, const MeshingSite& site);
+void survey_cells(const Survey& survey, const LayerDomain& layer_domain);
 /// bases.cpp: finds blunt bases that are much thinner than the layer requested on them.
-void survey_bases(const Survey& survey, const MeshingSite& site);
+void survey_bases(const Survey& survey, const LayerDomain& layer_domain);
 /// wake.cpp: reports a body in a farfield without any size source.
 void survey_wake(const Survey& survey);
 /// cells.cpp: returns the requested height in metres of the layer at a vertex, before any reduction.
-double asked_height(const LayerBase& base, const EnvelopeScale& scale, VertexId v);
+double requested_height(const LayerBase& base, const EnvelopeScale& scale, VertexId v);
 /// cells.cpp: compares the first height with the flow.
 void survey_y_plus(const Survey& survey);
 

@@ -23,7 +23,7 @@ void survey_unit(const Survey& survey) {
   finding.advice = is_long ? "unit = mm when reading the file (--unit mm) makes the body " + in_metres(1e-3 * length, k_text_digits) + " long"
                            : "give the unit of the file (--unit); without it, a length of 1 in the file means 1 m";
   Box box = bounding_box(survey.mesh);
-  if (survey.n_places() > 0) finding.places.push_back({box.center(), {}, length, "middle of the body"});
+  if (survey.n_locations() > 0) finding.locations.push_back({box.center(), {}, length, "middle of the body"});
   add_finding(survey.report, std::move(finding), {});
 }
 

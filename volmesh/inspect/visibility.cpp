@@ -20,10 +20,10 @@ void add_vertices(const Survey& survey, const LayerBase& base, const WallMap& ma
   }
   for (const double a : base.vertex_area) all += a;
   finding.share = area / all;
-  for (const auto& s : worst(suspects, survey.n_places()))
-    finding.places.push_back({base.wall.points[s.id], survey.patch_of(map.triangle(triangle_of(base.topology.outgoing(s.id).front()))), s.badness / k_degree,
-                              "vertex " + std::to_string(s.id.value()) + ", best growth direction " + number_text(s.badness / k_degree, k_text_digits) +
-                                  " deg from a facet normal"});
+  for (const auto& s : worst(suspects, survey.n_locations()))
+    finding.locations.push_back({base.wall.points[s.id], survey.patch_of(map.triangle(triangle_of(base.topology.outgoing(s.id).front()))), s.badness / k_degree,
+                                 "vertex " + std::to_string(s.id.value()) + ", best growth direction " + number_text(s.badness / k_degree, k_text_digits) +
+                                     " deg from a facet normal"});
   add_finding(survey.report, std::move(finding), where);
 }
 

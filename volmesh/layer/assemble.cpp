@@ -199,12 +199,12 @@ void add_tetrahedra(const FillBoundary& boundary, const TetraResult& tets, Hybri
   const std::size_t n_before = mesh.points.size();
   std::vector<Point>& points = mesh.points.raw();
   points.insert(points.end(), tets.new_points.begin(), tets.new_points.end());
-  const std::size_t n_of_fans = mesh.tetrahedra.size();
-  mesh.tetrahedra.resize(n_of_fans + tets.tetrahedra.size());
+  const std::size_t n_of_multi_normals = mesh.tetrahedra.size();
+  mesh.tetrahedra.resize(n_of_multi_normals + tets.tetrahedra.size());
   parallel_for(context, tets.tetrahedra.size(), [&](std::size_t i) {
     for (std::size_t k = 0; k < 4; ++k) {
       const std::size_t p = tets.tetrahedra[i][k];
-      mesh.tetrahedra[n_of_fans + i][k] = p < n_boundary ? boundary.point2node[p] : NodeId(n_before + (p - n_boundary));
+      mesh.tetrahedra[n_of_multi_normals + i][k] = p < n_boundary ? boundary.point2node[p] : NodeId(n_before + (p - n_boundary));
     }
   });
 }

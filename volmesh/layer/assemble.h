@@ -4,9 +4,9 @@
 #include <span>
 
 #include "geom/mesh/hybrid_mesh.h"
+#include "volmesh/adjacent/close_boundary.h"
+#include "volmesh/adjacent/wall_discs.h"
 #include "volmesh/layer/extrude.h"
-#include "volmesh/rims/close_ends.h"
-#include "volmesh/rims/slits.h"
 #include "volmesh/tetra/tetra.h"
 
 namespace sterna::volmesh {
@@ -26,7 +26,7 @@ double last_prism_volume(const LayerBlock& layers, std::span<const Point> points
 FillBoundary fill_boundary(const LayerBase& base, const Extrusion& extrusion, const ClosedOuter& outer);
 /// Returns the fill boundary of a mesh that assemble_layers() made. It uses the columns, the boundary triangles, and the nodes up to the last node of the outer
 /// boundary.
-/// \pre all cells of the mesh belong to columns: close_fans() and close_wakes() have not been called
+/// \pre all cells of the mesh belong to columns: close_multi_normals() and close_wakes() have not been called
 FillBoundary boundary_of(const HybridMesh& layers);
 /// Returns the outer boundary that was passed to assemble_layers(), except that its vertices may have other numbers. \p n_wall_patches number of patches with
 /// layers
@@ -37,7 +37,7 @@ ClosedOuter outer_of(const HybridMesh& layers, std::size_t n_wall_patches);
 HybridMesh assemble_layers(const LayerBase& base, Extrusion extrusion, const ClosedOuter& outer, std::span<const LayerSide> sides);
 /// Adds the tetrahedra to the mesh.
 /// \pre the mesh was made by assemble_layers(), and `boundary` belongs to this mesh
-/// \post Steiner points follow the nodes of the mesh, and new tetrahedra follow the existing ones (close_fans.h)
+/// \post Steiner points follow the nodes of the mesh, and new tetrahedra follow the existing ones (close_multi_normals.h)
 void add_tetrahedra(const FillBoundary& boundary, const TetraResult& tets, HybridMesh& mesh, const RunContext& context);
 
 }  // namespace sterna::volmesh

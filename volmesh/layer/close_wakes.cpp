@@ -16,9 +16,9 @@ namespace {
 class WakeCloser {
  public:
   WakeCloser(const DoubledSheets& sheets, HybridMesh& mesh, FillBoundary& boundary)
-      : sheets_(sheets), mesh_(mesh), boundary_(boundary), given_(mesh.layers), foot_(mesh.layers.n_lines()), cells_(mesh) {
-    for (std::size_t line = 0; line < foot_.size(); ++line) foot_[line] = static_cast<Line>(line);
-    for (const DoubledSheets::Foot& foot : sheets.feet) foot_[foot.sides[1].index()] = foot.sides[0].value();
+      : sheets_(sheets), mesh_(mesh), boundary_(boundary), given_(mesh.layers), base_line_(mesh.layers.n_lines()), cells_(mesh) {
+    for (std::size_t line = 0; line < base_line_.size(); ++line) base_line_[line] = static_cast<Line>(line);
+    for (const DoubledSheets::BaseVertex& base_vertex : sheets.base_vertices) base_line_[base_vertex.sides[1].index()] = base_vertex.sides[0].value();
   }
 
   void close() {
@@ -32,12 +32,12 @@ class WakeCloser {
  private:
   using Line = ExplicitCells::Line;
   bool is_added(Line line) const { return line >= sheets_.n_given_vertices; }
-  bool has_own_foot(Line line) const { return foot_[line] == line; }
+  bool has_own_base(Line line) const { return base_line_[line] == line; }
 
   NodeId node(Line line, int j) const {
     const int at = std::min(j, given_.n_steps(line));
-    if (at == 0) return NodeId(lines_.first(foot_[line]));
-    return NodeId(lines_.first(line) + static_cast<std::uint32_t>(has_own_foot(line) ? at : at - 1));
+    if (at == 0) return NodeId(lines_.first(base_line_[line]));
+    return NodeId(lines_.first(line) + static_cast<std::uint32_t>(has_own_base(line) ? at : at - 1));
   }
 
   auto node_of() const {
@@ -46,9 +46,10 @@ class WakeCloser {
 
   void number_nodes() {
     lines_.renumber(mesh_, [&](Line line, auto begin, std::vector<Point>& points) {
-      points.insert(points.end(), begin + (has_own_foot(line) ? 0 : 1), begin + given_.n_steps(line) + 1);
+      points.insert(points.end(), begin + (has_own_base(line) ? 0 : 1), begin + given_.n_steps(line) + 1);
     });
-    for (const DoubledSheets::Foot& foot : sheets_.feet) mesh_.points[NodeId(lines_.first(foot.sides[0].value()))] = foot.point;
+    for (const DoubledSheets::BaseVertex& base_vertex : sheets_.base_vertices)
+      mesh_.points[NodeId(lines_.first(base_vertex.sides[0].value()))] = base_vertex.point;
   }
 
   void keep_columns() {
@@ -88,10 +89,10 @@ class WakeCloser {
 
   void prove() const {
     ErrorInfo info = cells_.find_invalid([](Line) {});
-    if (info.n_places == 0) return;
+    if (info.n_locations == 0) return;
     info.code = ErrorCode::envelope_failed;
     info.attempted = "making the cells of wake sheets";
-    info.problem = std::to_string(info.n_places) + " cells are inverted";
+    info.problem = std::to_string(info.n_locations) + " cells are inverted";
     info.hint = "leave the wakes out, or give another direction or length";
     throw Error(std::move(info));
   }
@@ -99,8 +100,8 @@ class WakeCloser {
   const DoubledSheets& sheets_;
   HybridMesh& mesh_;
   FillBoundary& boundary_;
-  const LayerBlock given_;  ///< layer on the wall with sheets
-  std::vector<Line> foot_;  ///< for each growth line the growth line at whose first node it starts
+  const LayerBlock given_;       ///< layer on the wall with sheets
+  std::vector<Line> base_line_;  ///< for each growth line the growth line at whose first node it starts
   RenumberedLines lines_{given_};
   std::vector<std::uint32_t> order_, explicit_columns_;
   ExplicitCells cells_;

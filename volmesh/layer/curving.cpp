@@ -35,13 +35,13 @@ std::vector<VertexId> dilated(const LayerBase& base, std::vector<VertexId> verti
 
 }  // namespace
 
-Curving::Curving(Borrowed<const LayerBase> base, double wanted)
-    : base_(base), wanted_(wanted), c_t_(base->wall.n_vertices(), wanted), limit_(base->wall.n_vertices(), wanted) {}
+Curving::Curving(Borrowed<const LayerBase> base, double target)
+    : base_(base), target_(target), c_t_(base->wall.n_vertices(), target), limit_(base->wall.n_vertices(), target) {}
 
 void Curving::limit(VertexId v, double c_t) {
   for_each_alike(base_, v, [&](VertexId w) {
     if (c_t >= limit_[w]) return;
-    if (limit_[w] == wanted_) limited_.push_back(w);
+    if (limit_[w] == target_) limited_.push_back(w);
     limit_[w] = c_t;
   });
 }
@@ -88,8 +88,8 @@ std::vector<VertexId> Curving::smooth(const RunContext& context) {
 std::array<std::int64_t, 5> Curving::distribution() const {
   std::array<std::int64_t, 5> count{};
   for (const double c : c_t_) {
-    if (c >= wanted_) continue;
-    ++count[c <= 0.0 ? 0 : std::min<std::size_t>(1 + static_cast<std::size_t>(4.0 * c / wanted_), 4)];
+    if (c >= target_) continue;
+    ++count[c <= 0.0 ? 0 : std::min<std::size_t>(1 + static_cast<std::size_t>(4.0 * c / target_), 4)];
   }
   return count;
 }

@@ -12,8 +12,8 @@ namespace sterna::volmesh {
 
 class Curving {
  public:
-  /// Sets c_t to `wanted` everywhere.
-  Curving(Borrowed<const LayerBase> base, double wanted);
+  /// Sets c_t to `target` everywhere.
+  Curving(Borrowed<const LayerBase> base, double target);
 
   double operator[](VertexId v) const { return c_t_[v]; }
   /// Limits c_t to at most `c_t` at v, from the next call of smooth() on.
@@ -28,7 +28,7 @@ class Curving {
 
  private:
   const LayerBase& base_;
-  double wanted_;
+  double target_;
   Column<VertexId, double> c_t_, limit_;
   std::vector<VertexId> limited_;  ///< vertices where limit_ < wanted_
 };

@@ -38,7 +38,7 @@ ErrorInfo ExplicitCells::find_invalid(const std::function<void(Line)>& on_invali
       Cell cell{kind, {}};
       std::ranges::copy(cells[i], cell.nodes.begin());
       if (is_valid(points_of(mesh_, cells[i])) && (kind == CellKind::tetrahedron || are_sub_volumes_positive(mesh_, cell))) continue;
-      info.add_place(mesh_.points[cells[i][0]], std::string(to_string(kind)) + " " + std::to_string(i));
+      info.add_location(mesh_.points[cells[i][0]], std::string(to_string(kind)) + " " + std::to_string(i));
       for (const Line line : lines_of_cells[i]) on_invalid(line);
     }
   };

@@ -48,7 +48,7 @@ double largest_share(const IsGood& is_good) {
 }
 
 /// Returns true if all cells of a column are valid. On a virtual triangle the first cell does not exist, and most other cells are parts of hexahedra.
-/// close_fans.h checks the actual cells, so no height is reduced for such a column.
+/// close_multi_normals.h checks the actual cells, so no height is reduced for such a column.
 bool is_certain(const LayerBase& base, std::size_t column, const ColumnLines& lines) {
   if (!base.is_virtual(TriangleId(column)) || lines.n_prisms() != lines.n_cells()) return is_column_certain(lines);
   const auto& [a, b, c] = lines.nodes;
@@ -97,9 +97,9 @@ std::vector<VertexId> Extruder::place_stale_lines(const Envelope& envelope) {
         LinePlacer placer(base_, scale_);
         for (std::size_t i = begin; i < end; ++i) {
           const VertexId v(i);
-          const Placed wanted{envelope.direction[v], envelope.height[v], curving_[v], layers(v)};
-          if (wanted == placed_[v]) continue;
-          placed_[v] = wanted;
+          const Placed target{envelope.direction[v], envelope.height[v], curving_[v], layers(v)};
+          if (target == placed_[v]) continue;
+          placed_[v] = target;
           layers_.is_collapsed[i] = envelope.is_collapsed(v) ? 1 : 0;
           placer.place(envelope, v, layers(v), curving_[v], points_.data() + layers_.first_node[i]);
           stale.push_back(v);
@@ -328,9 +328,9 @@ double Extruder::upright_share(const Envelope& envelope, std::size_t column) con
     }
     return worst_top_cosine(lines);
   };
-  const double wanted = std::min(k_least_top_cosine, cosine(0.0) - k_tilt_room);
-  if (cosine(1.0) >= wanted) return 1.0;
-  return largest_share([&](double share) { return cosine(share) >= wanted; });
+  const double target = std::min(k_least_top_cosine, cosine(0.0) - k_tilt_room);
+  if (cosine(1.0) >= target) return 1.0;
+  return largest_share([&](double share) { return cosine(share) >= target; });
 }
 
 /// Limits c_t at the growth lines of invalid columns to the result of bisection. Returns the columns that no c_t makes valid.
@@ -426,8 +426,8 @@ void Extruder::extrude(Envelope& envelope) {
       throw Error({.code = ErrorCode::envelope_failed,
                    .attempted = "extruding prisms",
                    .problem = std::to_string(bad.size()) + " prism columns are still invalid after " + std::to_string(round) + " repairs",
-                   .places = {{place, "column " + std::to_string(bad.front())}},
-                   .n_places = static_cast<std::int64_t>(bad.size()),
+                   .locations = {{place, "column " + std::to_string(bad.front())}},
+                   .n_locations = static_cast<std::int64_t>(bad.size()),
                    .hint = "report this surface"});
     }
     Columns hopeless;

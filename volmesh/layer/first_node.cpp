@@ -14,12 +14,12 @@ struct Tally {
   std::int64_t n_full = 0, n_good = 0, n_compressed = 0, n_collapsed = 0;
   CompensatedSum area, smooth, good, mean_good, ridge;
   double worst = 0.0;
-  Point place;
+  Point location;
 
   void note(double deviation, const Point& p) {
     if (!(deviation > worst)) return;
     worst = deviation;
-    place = p;
+    location = p;
   }
 };
 
@@ -33,7 +33,7 @@ Tally combined(Tally a, const Tally& b) {
   a.good.add(b.good);
   a.mean_good.add(b.mean_good);
   a.ridge.add(b.ridge);
-  a.note(b.worst, b.place);
+  a.note(b.worst, b.location);
   return a;
 }
 
@@ -102,9 +102,9 @@ FirstNodeReport first_node_report(const LayerBase& base, const Classification& c
   report.facet_mean_share = share(facets.mean_good.value(), facets.smooth.value());
   report.ridge_area = share(facets.ridge.value(), facets.area.value());
   report.worst_vertex = vertices.worst;
-  report.worst_vertex_place = vertices.place;
+  report.worst_vertex_location = vertices.location;
   report.worst_facet = facets.worst;
-  report.worst_facet_place = facets.place;
+  report.worst_facet_location = facets.location;
   return report;
 }
 

@@ -19,7 +19,7 @@ struct FirstNodeReport {
   double ridge_area = 0.0;        ///< fraction of the wall's area in triangles with a ridge or corner vertex
   double worst_vertex = 0.0;      ///< largest deviation, relative to h0
   double worst_facet = 0.0;
-  Point worst_vertex_place, worst_facet_place;
+  Point worst_vertex_location, worst_facet_location;
 };
 
 FirstNodeReport first_node_report(const LayerBase& base, const Classification& classes, const EnvelopeOptions& options, const Envelope& envelope,

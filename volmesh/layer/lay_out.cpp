@@ -4,15 +4,15 @@
 #include <utility>
 #include <vector>
 
-#include "volmesh/domain/disc_sheets.h"
-#include "volmesh/envelope/periodic.h"
+#include "volmesh/adjacent/close_boundary.h"
+#include "volmesh/adjacent/wall_discs.h"
+#include "volmesh/domain/disc_baffles.h"
+#include "volmesh/envelope/periodic_growth.h"
 #include "volmesh/envelope/retract.h"
 #include "volmesh/envelope/untangle.h"
-#include "volmesh/layer/close_fans.h"
+#include "volmesh/layer/close_multi_normals.h"
 #include "volmesh/layer/close_wakes.h"
 #include "volmesh/layer/extrude.h"
-#include "volmesh/rims/close_ends.h"
-#include "volmesh/rims/slits.h"
 
 namespace sterna::volmesh {
 namespace {
@@ -40,52 +40,52 @@ Extrusion extrude_clear_of_collisions(const LayerBase& base, const MeshCase& opt
   }
 }
 
-ClosedOuter closed_around(const MeshingSite& site, const Envelope& envelope, const RunContext& context) {
-  ClosedOuter outer = close_ends(site.domain, site.base, envelope, {site.options.ends, end_sizes(site.options)}, context);
+ClosedOuter closed_around(const LayerDomain& layer_domain, const Envelope& envelope, const RunContext& context) {
+  ClosedOuter outer = close_boundary(layer_domain.domain, layer_domain.base, envelope, {layer_domain.options.ends, end_sizes(layer_domain.options)}, context);
   std::vector<std::size_t> on_walls;
-  for (const DiscSlit& slit : site.domain.slits) on_walls.push_back(slit.disc);
-  outer.mesh = with_second_sides(std::move(outer.mesh), free_discs(site.options.discs, on_walls));
+  for (const WallDisc& wall_disc : layer_domain.domain.wall_discs) on_walls.push_back(wall_disc.disc);
+  outer.mesh = with_second_sides(std::move(outer.mesh), free_discs(layer_domain.options.discs, on_walls));
   outer.line.resize(outer.mesh.n_vertices());
-  close_slits(site.domain, site.base, envelope, site.options.discs, {site.options.size.size_growth, site.options.ends, end_sizes(site.options)}, context,
-              outer);
+  close_wall_discs(layer_domain.domain, layer_domain.base, envelope, layer_domain.options.discs,
+                   {layer_domain.options.size.size_growth, layer_domain.options.ends, end_sizes(layer_domain.options)}, context, outer);
   return outer;
 }
 
 }  // namespace
 
-LaidLayer lay_out(MeshingSite& site, Envelope& envelope, const RunContext& context) {
+LaidLayer lay_out(LayerDomain& layer_domain, Envelope& envelope, const RunContext& context) {
   LaidLayer laid;
   Extrusion extrusion;
   {
     const StageTimer timer(context, "prisms");
-    extrusion = extrude_clear_of_collisions(site.base, site.options, site.collider, envelope, context);
+    extrusion = extrude_clear_of_collisions(layer_domain.base, layer_domain.options, layer_domain.collider, envelope, context);
   }
   {
     const StageTimer timer(context, "certificate");
-    const TestedEnvelope tested = certify_envelope(site.base, site.collider, envelope, context);
+    const TestedEnvelope tested = certify_envelope(layer_domain.base, layer_domain.collider, envelope, context);
     require_proved(tested);
     laid.certificate = tested;
-    if (!site.domain.has_rims()) laid.clear = tested.clear;
+    if (!layer_domain.domain.has_borders()) laid.clear = tested.clear;
   }
-  laid.report = report_layer(site.base, site.options.envelope, envelope, extrusion, &site.domain.outer, context);
+  laid.report = report_layer(layer_domain.base, layer_domain.options.envelope, envelope, extrusion, &layer_domain.domain.outer, context);
   laid.curving_shares = extrusion.curving_shares;
-  const ClosedOuter outer = closed_around(site, envelope, context);
-  open_slits(site.domain, extrusion.layers, extrusion.points);
-  laid.boundary = fill_boundary(site.base, extrusion, outer);
-  laid.mesh = assemble_layers(site.base, std::move(extrusion), outer, layer_sides(site.domain));
-  laid.mesh.request = layer_request(site.base, site.options.envelope, envelope, laid.mesh.layers);
-  open_slits(site.domain, laid.mesh.request);
-  const std::size_t n_wall_patches = site.base.wall.patches.size();
-  for (const PeriodicEnds& sides : site.domain.periodic)
+  const ClosedOuter outer = closed_around(layer_domain, envelope, context);
+  open_wall_discs(layer_domain.domain, extrusion.layers, extrusion.points);
+  laid.boundary = fill_boundary(layer_domain.base, extrusion, outer);
+  laid.mesh = assemble_layers(layer_domain.base, std::move(extrusion), outer, layer_sides(layer_domain.domain));
+  laid.mesh.request = layer_request(layer_domain.base, layer_domain.options.envelope, envelope, laid.mesh.layers);
+  open_wall_discs(layer_domain.domain, laid.mesh.request);
+  const std::size_t n_wall_patches = layer_domain.base.wall.patches.size();
+  for (const PeriodicPair& sides : layer_domain.domain.periodic)
     laid.mesh.periodic.push_back({PatchId(n_wall_patches + sides.first.index()), PatchId(n_wall_patches + sides.second.index()), sides.translation});
-  if (!site.domain.is_opened()) return laid;
+  if (!layer_domain.domain.is_opened()) return laid;
   laid.opened = laid.mesh;
-  close_opened(site.domain, laid.mesh, laid.boundary);
+  close_opened(layer_domain.domain, laid.mesh, laid.boundary);
   return laid;
 }
 
 void close_opened(const Domain& domain, HybridMesh& layers, FillBoundary& boundary) {
-  close_fans(domain.ridges, layers, boundary);
+  close_multi_normals(domain.ridges, layers, boundary);
   close_wakes(domain.sheets, layers, boundary);
 }
 
@@ -97,7 +97,7 @@ void require_proved_cells(const LayerCertificate& cells, EnvelopeCertificate& ce
   certificate.n_layer_cells = cells.n_cells;
   certificate.n_invalid_layer_cells = cells.n_cells - cells.n_proved;
   if (cells.worst_column >= 0)
-    certificate.worst_layer_cell = {cells.min_quality, cells.worst_place,
+    certificate.worst_layer_cell = {cells.min_quality, cells.worst_location,
                                     "layer " + std::to_string(cells.worst_layer) + " on wall triangle " + std::to_string(cells.worst_column)};
   require_proved(certificate);
 }

@@ -14,7 +14,7 @@
 #include "volmesh/layer/assemble.h"
 #include "volmesh/layer/layer_cells.h"
 #include "volmesh/layer/layer_report.h"
-#include "volmesh/site/site.h"
+#include "volmesh/layer_domain/layer_domain.h"
 
 namespace sterna::volmesh {
 
@@ -31,11 +31,11 @@ struct LaidLayer {
 
 /// Returns the layer below the present envelope. May lower the envelope.
 /// \pre, \post the envelope is valid and clear
-/// \throws the errors of the stages; Error(envelope_failed) if the certificate fails; FanError if opened ridges get no valid cells
-LaidLayer lay_out(MeshingSite& site, Envelope& envelope, const RunContext& context);
+/// \throws the errors of the stages; Error(envelope_failed) if the certificate fails; MultiNormalError if opened ridges get no valid cells
+LaidLayer lay_out(LayerDomain& layer_domain, Envelope& envelope, const RunContext& context);
 
 /// Converts a layer on a wall with opened ridges, or with wake sheets, to the cells of the given wall.
-/// \throws the errors of close_fans() and close_wakes()
+/// \throws the errors of close_multi_normals() and close_wakes()
 void close_opened(const Domain& domain, HybridMesh& layers, FillBoundary& boundary);
 
 /// Results of the layer checks that run while an engine makes the tetrahedra.

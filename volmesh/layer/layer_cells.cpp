@@ -80,7 +80,7 @@ void add_column(const ColumnLines& lines, std::size_t column, LayerCertificate& 
     const double quality = wedge_quality(p);
     if (!(quality < certificate.min_quality)) continue;
     certificate.min_quality = quality;
-    certificate.worst_place = (p[0] + p[1] + p[2] + p[3] + p[4] + p[5]) / 6.0;
+    certificate.worst_location = (p[0] + p[1] + p[2] + p[3] + p[4] + p[5]) / 6.0;
     certificate.worst_column = static_cast<std::int64_t>(column);
     certificate.worst_layer = j;
   }

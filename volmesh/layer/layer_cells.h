@@ -55,7 +55,7 @@ struct LayerCertificate {
   std::int64_t n_cells = 0;
   std::int64_t n_proved = 0;       ///< number of cells that are valid
   double min_quality = 1.0;        ///< smallest wedge_quality of the prisms (scaled Jacobian, positive if and only if the prism is valid, except for rounding)
-  Point worst_place;               ///< centre of that prism
+  Point worst_location;            ///< centre of that prism
   std::int64_t worst_column = -1;  ///< location of this prism: number of the column (= wall triangle), and layer counted from the wall
   int worst_layer = -1;
 };

@@ -36,7 +36,7 @@ void LinePlacer::place(const Envelope& envelope, VertexId v, int n, double c_t, 
   layer_parameters(scale_.growth(v), h_n, n, t_.data());
   const Vec3 along = envelope.height[v] * envelope.direction[v];
   const Vec3 aside = h_n * base_.vertex_normal[v] - along;
-  const bool is_curved = c_t >= std::max(k_straight, least_curving(v, norm(aside), h_n)) && base_.fan_of(v) == nullptr;
+  const bool is_curved = c_t >= std::max(k_straight, least_curving(v, norm(aside), h_n)) && base_.multi_normal_of(v) == nullptr;
   const double end = is_curved ? std::exp(-1.0 / c_t) : 0.0;
   const double scale = 1.0 / (1.0 - end);
   for (int j = 1; j < n; ++j) {

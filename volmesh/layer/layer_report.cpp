@@ -61,13 +61,13 @@ LayerRoom room_around(const LayerBase& base, const Envelope& envelope, const Tri
     const TriangleId t(i);
     const TriangleVertices& v = base.wall.triangles[t];
     facing[i] = {.corners = corners(base.wall, t),
-                 .feet = {v[0].value(), v[1].value(), v[2].value()},
-                 .asked = std::max({envelope.target[v[0]], envelope.target[v[1]], envelope.target[v[2]]}),
+                 .base_lines = {v[0].value(), v[1].value(), v[2].value()},
+                 .requested = std::max({envelope.target[v[0]], envelope.target[v[1]], envelope.target[v[2]]}),
                  .edge = mean_top_edge(base, envelope, t)};
   });
-  constexpr std::uint32_t k_none = FacingTriangle::k_no_foot;
+  constexpr std::uint32_t k_none = FacingTriangle::k_no_line;
   if (outer != nullptr)
-    for (const TriangleId t : outer->triangles.ids()) facing.push_back({.corners = corners(*outer, t), .feet = {k_none, k_none, k_none}});
+    for (const TriangleId t : outer->triangles.ids()) facing.push_back({.corners = corners(*outer, t), .base_lines = {k_none, k_none, k_none}});
   return LayerRoom(std::move(facing), context);
 }
 
@@ -150,7 +150,7 @@ std::string vertex_text(const LayerBase& base, const Envelope& envelope, VertexI
   return "vertex " + std::to_string(v.value()) + " of patch " + patch.name + ": " + std::string(to_string(envelope.limit[v]));
 }
 
-void list_places(const LayerBase& base, const Envelope& envelope, const Classifier& classifier, LayerReport& report) {
+void list_locations(const LayerBase& base, const Envelope& envelope, const Classifier& classifier, LayerReport& report) {
   std::vector<VertexId> compressed;
   for (const VertexId v : envelope.height.ids()) {
     if (base.topology.outgoing(v).empty()) continue;  // the vertex belongs to no triangle
@@ -261,7 +261,7 @@ LayerReport report_layer(const LayerBase& base, const EnvelopeOptions& options, 
   report.mean_height_share = heights / targets;
   report.mean_height = heights / areas.all;
   report.patches = cover_patches(base, classifier);
-  list_places(base, envelope, classifier, report);
+  list_locations(base, envelope, classifier, report);
   report.first_node = first_node_report(base, classify_vertices(base, options, context), options, envelope, extrusion, context);
   report.interface = report_interface(base, classifier, extrusion, context);
   report.reduced_curving = extrusion.curving_shares;
@@ -287,11 +287,11 @@ LayerRequest layer_request(const LayerBase& base, const EnvelopeOptions& options
       request.line_first_room.push_back(scale.room_for_first_cell(v, layers.layers_of_line(v.value())));
     }
   }
-  const auto asked = [&](VertexId v) { return static_cast<std::uint16_t>(scale.n(v)); };
+  const auto requested = [&](VertexId v) { return static_cast<std::uint16_t>(scale.n(v)); };
   bool is_truncated = false;
   for (const VertexId v : envelope.height.ids()) {
-    request.line_layers.push_back(asked(v));
-    is_truncated = is_truncated || layers.layers_of_line(v.value()) < asked(v);
+    request.line_layers.push_back(requested(v));
+    is_truncated = is_truncated || layers.layers_of_line(v.value()) < requested(v);
   }
   if (!is_truncated) request.line_layers.clear();
   for (const VertexId v : envelope.height.ids()) {

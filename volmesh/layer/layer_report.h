@@ -56,9 +56,9 @@ struct LayerReport {
   double collapsed_area = 0.0;                            ///< fraction of the wall area
   double truncated_area = 0.0;                            ///< fraction of the wall area with fewer layers than requested
   std::vector<PatchLayerReport> patches;                  ///< patches in the order of the wall
-  std::vector<ErrorPlace> collapsed;                      ///< each collapsed vertex: location, patch and reason
+  std::vector<ErrorLocation> collapsed;                   ///< each collapsed vertex: location, patch and reason
   /// The lowest vertices below n h0 that are not collapsed (at most k_listed_compressed): location, patch, height and reason.
-  std::vector<ErrorPlace> compressed;
+  std::vector<ErrorLocation> compressed;
   FirstNodeReport first_node;  ///< distances of the first nodes from the wall
   InterfaceReport interface;
   /// Numbers of growth lines with less than wall_perpendicularity, by the fraction of it: 0, up to 1/4, 1/2, 3/4, below 1.

@@ -1,5 +1,5 @@
-// Renumbers a layer whose growth lines get other nodes, because some of them start at a node of another growth line or have their own cells. Used by close_fans
-// and close_wakes.
+// Renumbers a layer whose growth lines get other nodes, because some of them start at a node of another growth line or have their own cells. Used by
+// close_multi_normals and close_wakes.
 #pragma once
 
 #include <algorithm>

@@ -109,13 +109,13 @@ std::optional<std::vector<Point>> scaled_line(const std::vector<Point>& nodes, d
   const std::vector<double> steps = steps_of(nodes);
   double length = 0.0;
   for (const double step : steps) length += step;
-  const std::optional<std::vector<double>> wanted = edge > 0.0 ? steps_above_flat_ones(steps, share * length, edge) : steps_with_sum(steps, share * length);
-  if (!wanted) return std::nullopt;
+  const std::optional<std::vector<double>> goal = edge > 0.0 ? steps_above_flat_ones(steps, share * length, edge) : steps_with_sum(steps, share * length);
+  if (!goal) return std::nullopt;
   std::vector<Point> result = nodes;
-  double along = (*wanted)[0] / share, passed = 0.0;  // positions on the original curve: of the new node, and of the start of segment k
+  double along = (*goal)[0] / share, passed = 0.0;  // positions on the original curve: of the new node, and of the start of segment k
   std::size_t k = 0;
   for (std::size_t j = 2; j + 1 < nodes.size(); ++j) {
-    along += (*wanted)[j - 1] / share;
+    along += (*goal)[j - 1] / share;
     while (k + 1 < steps.size() && passed + steps[k] < along) passed += steps[k++];
     const double part = std::min(1.0, (along - passed) / steps[k]);
     result[j] = nodes[0] + share * (nodes[k] + part * (nodes[k + 1] - nodes[k]) - nodes[0]);
@@ -383,7 +383,7 @@ std::vector<LineSlider::Star> LineSlider::stars_of(const TetraResult& tets, cons
 std::vector<std::array<std::uint32_t, 2>> LineSlider::neighbours_in(const TetraResult& tets, const std::vector<std::uint32_t>& star) const {
   struct Face {
     std::array<std::uint32_t, 3> corners;  ///< ascending
-    std::uint32_t place;
+    std::uint32_t location;
     auto operator<=>(const Face&) const = default;
   };
   std::vector<Face> faces;
@@ -395,13 +395,13 @@ std::vector<std::array<std::uint32_t, 2>> LineSlider::neighbours_in(const TetraR
       faces.push_back({face, i});
   }
   std::ranges::sort(faces);
-  std::vector<std::array<std::uint32_t, 2>> places;
+  std::vector<std::array<std::uint32_t, 2>> locations;
   for (std::size_t k = 1; k < faces.size(); ++k)
-    if (faces[k].corners == faces[k - 1].corners) places.push_back({faces[k].place, faces[k - 1].place});
-  std::ranges::sort(places);
+    if (faces[k].corners == faces[k - 1].corners) locations.push_back({faces[k].location, faces[k - 1].location});
+  std::ranges::sort(locations);
   std::vector<std::array<std::uint32_t, 2>> pairs;
-  pairs.reserve(places.size());
-  for (const auto& [later, earlier] : places) pairs.push_back({star[earlier], star[later]});
+  pairs.reserve(locations.size());
+  for (const auto& [later, earlier] : locations) pairs.push_back({star[earlier], star[later]});
   return pairs;
 }
 
@@ -449,8 +449,8 @@ void LineSlider::put(Line line, const std::vector<Point>& nodes) {
 /// Returns the largest allowed ratio of consecutive cells of the growth line.
 double LineSlider::allowed_growth(Line line) const {
   const LayerRequest& request = mesh_.request;
-  const double asked = request.line_max_growth.empty() ? request.max_growth : request.line_max_growth[line];
-  return std::max(asked, 1.0) * (1.0 + k_growth_rounding);
+  const double requested = request.line_max_growth.empty() ? request.max_growth : request.line_max_growth[line];
+  return std::max(requested, 1.0) * (1.0 + k_growth_rounding);
 }
 
 Vec3 LineSlider::to_middle(Line line, const Star& star) const {

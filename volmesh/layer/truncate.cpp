@@ -10,19 +10,19 @@
 namespace sterna::volmesh {
 namespace {
 
-/// Fractions of the height of a regular tetrahedron on the top. k_wanted_last is the target for the last cell. k_least_step is the smallest height whose step
+/// Fractions of the height of a regular tetrahedron on the top. k_target_last is the target for the last cell. k_least_step is the smallest height whose step
 /// is a good cell (a tetrahedron on a step of this height has an angle of about 6 degrees). k_most_last limits the last cell that fewer layers may produce,
 /// unless the last cell is already taller.
-constexpr double k_wanted_last = 0.5, k_least_step = 0.12, k_most_last = 1.5;
+constexpr double k_target_last = 0.5, k_least_step = 0.12, k_most_last = 1.5;
 constexpr double k_rounding = 1.0 + 1e-9;  ///< tolerance for heights that are compared with n h0, and for growth
 /// Fraction of max_growth that is used; the remainder is for curved growth lines, whose cells grow by more than their heights.
 constexpr double k_used_growth = 0.98;
 
 /// Possible numbers of layers of a growth line.
 struct LineChoice {
-  int wanted = 0;     ///< number of layers without regard to neighbours
-  int least = 0;      ///< smallest number of layers beside neighbours with fewer layers
-  int thin_from = 0;  ///< from this number on, the last cell is lower than k_least_step
+  int target_layers = 0;  ///< number of layers without regard to neighbours
+  int least = 0;          ///< smallest number of layers beside neighbours with fewer layers
+  int thin_from = 0;      ///< from this number on, the last cell is lower than k_least_step
 };
 
 class LineTruncation {
@@ -44,14 +44,14 @@ class LineTruncation {
     LineChoice choice;
     choice.least = first_of(least, all, [&](int n) { return last(n) <= k_most_last * regular; });
     if (truncation == Truncation::always) {
-      choice.wanted = least_with_growth(std::min(most_growth, growth_for_height(h0, envelope_.target[v], all)));
+      choice.target_layers = least_with_growth(std::min(most_growth, growth_for_height(h0, envelope_.target[v], all)));
       choice.thin_from = all + 1;
     } else {
       const auto first_below = [&](double share) { return first_of(least, all + 1, [&](int n) { return n > all || last(n) < share * regular; }); };
       choice.thin_from = first_below(k_least_step);
-      choice.wanted = choice.thin_from <= least ? all : std::max(least, first_below(k_wanted_last) - 1);
+      choice.target_layers = choice.thin_from <= least ? all : std::max(least, first_below(k_target_last) - 1);
     }
-    choice.least = std::min(choice.least, choice.wanted);
+    choice.least = std::min(choice.least, choice.target_layers);
     return choice;
   }
 
@@ -72,15 +72,15 @@ class LineTruncation {
   const Envelope& envelope_;
 };
 
-/// Requires all layers in all columns around multi-normal fans, because close_fans.h makes explicit cells there.
-void keep_fans(const LayerBase& base, const EnvelopeScale& scale, std::vector<std::uint16_t>& least) {
+/// Requires all layers in all columns around multi-normal fans, because close_multi_normals.h makes explicit cells there.
+void keep_multi_normals(const LayerBase& base, const EnvelopeScale& scale, std::vector<std::uint16_t>& least) {
   if (base.ridges == nullptr) return;
-  std::vector<std::uint8_t> is_of_fan(least.size(), 0);
-  for (const VertexId v : base.ridges->end_vertices) is_of_fan[v.index()] = 1;
+  std::vector<std::uint8_t> is_of_multi_normal(least.size(), 0);
+  for (const VertexId v : base.ridges->end_vertices) is_of_multi_normal[v.index()] = 1;
   for (const VertexId v : base.wall.points.ids())
-    if (base.fan_of(v) != nullptr) is_of_fan[v.index()] = 1;
+    if (base.multi_normal_of(v) != nullptr) is_of_multi_normal[v.index()] = 1;
   for (const TriangleVertices& t : base.wall.triangles)
-    if (std::ranges::any_of(t, [&](VertexId v) { return is_of_fan[v.index()] != 0; }))
+    if (std::ranges::any_of(t, [&](VertexId v) { return is_of_multi_normal[v.index()] != 0; }))
       for (const VertexId v : t) least[v.index()] = static_cast<std::uint16_t>(scale.n(v));
 }
 
@@ -88,22 +88,27 @@ void keep_fans(const LayerBase& base, const EnvelopeScale& scale, std::vector<st
 
 LayerNumbers::LayerNumbers(Borrowed<const LayerBase> base, const EnvelopeScale& scale, const Envelope& envelope, Truncation truncation,
                            const RunContext& context)
-    : base_(base), layers_(base->wall.n_vertices()), least_(layers_.size()), thin_from_(layers_.size()), asked_(layers_.size()), is_fixed_(layers_.size(), 0) {
+    : base_(base),
+      layers_(base->wall.n_vertices()),
+      least_(layers_.size()),
+      thin_from_(layers_.size()),
+      requested_(layers_.size()),
+      is_fixed_(layers_.size(), 0) {
   const LineTruncation lines(base, scale, envelope);
   parallel_for(context, layers_.size(), [&](std::size_t i) {
     const VertexId v(i);
     const int all = scale.n(v);
-    asked_[i] = static_cast<std::uint16_t>(all);
+    requested_[i] = static_cast<std::uint16_t>(all);
     LineChoice choice{all, all, all + 1};
     is_fixed_[i] = envelope.is_collapsed(v) || base->topology.outgoing(v).empty();
     const Truncation own = base->truncation.empty() ? truncation : base->truncation[v];
     if (!is_fixed_[i] && own != Truncation::never) choice = lines.choose(v, own);
-    layers_[i] = static_cast<std::uint16_t>(choice.wanted);
+    layers_[i] = static_cast<std::uint16_t>(choice.target_layers);
     least_[i] = static_cast<std::uint16_t>(choice.least);
     thin_from_[i] = static_cast<std::uint16_t>(choice.thin_from);
   });
   if (truncation == Truncation::never && base->truncation.empty()) return;
-  keep_fans(base, scale, least_);
+  keep_multi_normals(base, scale, least_);
   for (std::size_t i = 0; i < layers_.size(); ++i) layers_[i] = std::max(layers_[i], least_[i]);
   close_downwards();
   close_upwards();
@@ -153,8 +158,8 @@ void LayerNumbers::close_upwards() {
   visit_until_settled(base_, [&](VertexId v, std::vector<VertexId>& next) {
     if (is_fixed_[v.index()]) return;
     const int own = layers_[v.index()], beside = own - (own >= thin_from_[v.index()] ? 0 : 1);
-    const auto raise = [&](VertexId w, int wanted) {
-      const int least = std::min<int>(wanted, asked_[w.index()]);
+    const auto raise = [&](VertexId w, int target_layers) {
+      const int least = std::min<int>(target_layers, requested_[w.index()]);
       if (is_fixed_[w.index()] || layers_[w.index()] >= least) return;
       layers_[w.index()] = static_cast<std::uint16_t>(least);
       next.push_back(w);

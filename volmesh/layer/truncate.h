@@ -39,7 +39,7 @@ class LayerNumbers {
   const LayerBase& base_;
   std::vector<std::uint16_t> layers_;
   std::vector<std::uint16_t> least_, thin_from_;  ///< smallest allowed number of each growth line, and number from which on no neighbour may have fewer
-  std::vector<std::uint16_t> asked_;              ///< requested numbers; on wake sheets those of neighbours differ by one
+  std::vector<std::uint16_t> requested_;          ///< requested numbers; on wake sheets those of neighbours differ by one
   std::vector<std::uint8_t> is_fixed_;
 };
 

@@ -17,7 +17,7 @@ struct VisibilityReport {
   double max_angle = 0.0;
   /// Fraction of the given vertices above each of k_visibility_limits_deg; for multi-normal fans the worst growth line is used.
   std::array<double, 4> share_above{};
-  std::vector<ErrorPlace> hardest;  ///< the ten worst vertices above the first of these limits
+  std::vector<ErrorLocation> hardest;  ///< the ten worst vertices above the first of these limits
 };
 
 VisibilityReport report_visibility(const LayerBase& base);

@@ -51,19 +51,19 @@ Column<VertexId, std::uint32_t> groups_of(const TriMesh& wall, std::span<const P
 }
 
 /// Returns the part in its own frame, with the patches that it has on the wall.
-PartEnvelopeTask task_of(const MeshingSite& site, const WholePart& whole) {
-  const PlacedPart& part = site.options.parts[whole.part];
-  PartEnvelopeTask task{.wall = {}, .options = site.given_envelope, .rules = {}, .smooth_angle = part.smooth_angle};
+PartEnvelopeTask task_of(const LayerDomain& layer_domain, const WholePart& whole) {
+  const PlacedPart& part = layer_domain.options.parts[whole.part];
+  PartEnvelopeTask task{.wall = {}, .options = layer_domain.given_envelope, .rules = {}, .smooth_angle = part.smooth_angle};
   task.wall.points = part.own->points;
   task.wall.triangles = part.own->triangles;
-  const TriMesh& wall = site.domain.wall;
+  const TriMesh& wall = layer_domain.domain.wall;
   Column<PatchId, PatchId> number(wall.patches.size());
   for (std::size_t t = 0; t < part.own->n_triangles(); ++t) {
     const PatchId patch = wall.triangle_patch[TriangleId(static_cast<std::uint64_t>(whole.first_triangle + t))];
     if (!number[patch].is_valid()) number[patch] = task.wall.patches.push_back(wall.patches[patch]);
     task.wall.triangle_patch.push_back(number[patch]);
   }
-  for (const PatchRule& rule : site.options.patches)
+  for (const PatchRule& rule : layer_domain.options.patches)
     if (std::ranges::any_of(task.wall.patches, [&](const Patch& patch) { return matches_glob(patch.name, rule.names); })) task.rules.push_back(rule);
   return task;
 }
@@ -87,8 +87,8 @@ struct Rest {
   OuterLinks links;
 };
 
-Rest rest_of(const MeshingSite& site, const Column<VertexId, std::uint32_t>& group) {
-  const TriMesh& wall = site.domain.wall;
+Rest rest_of(const LayerDomain& layer_domain, const Column<VertexId, std::uint32_t>& group) {
+  const TriMesh& wall = layer_domain.domain.wall;
   Rest rest;
   rest.wall2rest.resize(wall.n_vertices());
   rest.wall.patches = wall.patches;
@@ -108,35 +108,36 @@ Rest rest_of(const MeshingSite& site, const Column<VertexId, std::uint32_t>& gro
     if (all.empty()) return;
     for (const VertexId v : rest.rest2wall) some.push_back(all[v]);
   };
-  slice(site.base.constraint, rest.constraints.vertex);
-  slice(site.base.near, rest.constraints.near);
-  rest.constraints.surfaces = site.base.surfaces;
-  for_each_column(slice, site.base.demand, rest.demand);
-  rest.links = site.domain.links;
+  slice(layer_domain.base.constraint, rest.constraints.vertex);
+  slice(layer_domain.base.near, rest.constraints.near);
+  rest.constraints.surfaces = layer_domain.base.surfaces;
+  for_each_column(slice, layer_domain.base.demand, rest.demand);
+  rest.links = layer_domain.domain.links;
   for (VertexId& v : rest.links.line)
     if (v.is_valid()) v = rest.wall2rest[v];
   return rest;
 }
 
-void add_rest(const MeshingSite& site, const Column<VertexId, std::uint32_t>& group, Envelope& envelope, const RunContext& context) {
-  const Rest rest = rest_of(site, group);
+void add_rest(const LayerDomain& layer_domain, const Column<VertexId, std::uint32_t>& group, Envelope& envelope, const RunContext& context) {
+  const Rest rest = rest_of(layer_domain, group);
   if (rest.wall.n_triangles() == 0) return;
   LayerBase base(rest.wall, context, rest.constraints);
   base.demand = rest.demand;
-  EnvelopeOptions options = site.options.envelope;
-  if (is_automatic(options.max_thickness)) options.max_thickness = k_default_thickness_share * site.base.body_length;
-  Collider collider(base, &site.domain.outer, context, &rest.links);
+  EnvelopeOptions options = layer_domain.options.envelope;
+  if (is_automatic(options.max_thickness)) options.max_thickness = k_default_thickness_share * layer_domain.base.body_length;
+  Collider collider(base, &layer_domain.domain.outer, context, &rest.links);
   const Envelope own = build_envelope(base, options, collider, context);
   for (const VertexId v : rest.rest2wall.ids()) take(own, v, {}, envelope, rest.rest2wall[v]);
 }
 
 /// Lowers heights until all parts are clear of each other and of their surroundings. Returns the changed vertices, ascending.
-std::vector<VertexId> clear_of_each_other(MeshingSite& site, const Column<VertexId, std::uint32_t>& group, Envelope& envelope, const RunContext& context) {
+std::vector<VertexId> clear_of_each_other(LayerDomain& layer_domain, const Column<VertexId, std::uint32_t>& group, Envelope& envelope,
+                                          const RunContext& context) {
   const EnvelopeShape before = envelope;
-  keep_inside(site.base, site.options.envelope, envelope, context);
-  unwarp(site.base, site.options.envelope, HeightLimit::warp, envelope, context);
-  share_gaps(site.base, site.options.envelope, site.collider, envelope, context, &group);
-  retract_collisions(site.base, site.options.envelope, site.collider, envelope, context);
+  keep_inside(layer_domain.base, layer_domain.options.envelope, envelope, context);
+  unwarp(layer_domain.base, layer_domain.options.envelope, HeightLimit::warp, envelope, context);
+  share_gaps(layer_domain.base, layer_domain.options.envelope, layer_domain.collider, envelope, context, &group);
+  retract_collisions(layer_domain.base, layer_domain.options.envelope, layer_domain.collider, envelope, context);
   return difference(before, envelope, context).vertices;
 }
 
@@ -161,25 +162,25 @@ std::vector<WholePart> whole_parts(const Domain& domain, std::span<const PlacedP
   return whole;
 }
 
-Envelope joint_envelope(MeshingSite& site, std::span<const WholePart> parts, const PartEnvelopeMaker& make, const RunContext& context) {
-  const Column<VertexId, std::uint32_t> group = groups_of(site.domain.wall, site.options.parts, parts);
+Envelope joint_envelope(LayerDomain& layer_domain, std::span<const WholePart> parts, const PartEnvelopeMaker& make, const RunContext& context) {
+  const Column<VertexId, std::uint32_t> group = groups_of(layer_domain.domain.wall, layer_domain.options.parts, parts);
   Envelope envelope;
-  resize(envelope, site.domain.wall.n_vertices());
+  resize(envelope, layer_domain.domain.wall.n_vertices());
   for (const WholePart& whole : parts) {
-    const PlacedPart& part = site.options.parts[whole.part];
-    const PartEnvelopeTask task = task_of(site, whole);
+    const PlacedPart& part = layer_domain.options.parts[whole.part];
+    const PartEnvelopeTask task = task_of(layer_domain, whole);
     const PartEnvelope own = make ? make(task, context) : part_envelope(task, context);
     for (const VertexId v : part.own->points.ids())
       take(own.envelope, v, part.placement, envelope, VertexId(static_cast<std::uint64_t>(whole.first_vertex + v.index())));
   }
-  add_rest(site, group, envelope, context);
-  const std::vector<VertexId> lowered = clear_of_each_other(site, group, envelope, context);
+  add_rest(layer_domain, group, envelope, context);
+  const std::vector<VertexId> lowered = clear_of_each_other(layer_domain, group, envelope, context);
   if (!lowered.empty()) {
     context.info("layers of parts are lower than separately made layers at " + std::to_string(lowered.size()) +
                  " vertices, where other parts or the outer boundary are near");
-    regrow_clear(site.base, site.collider, envelope, context, &lowered);
+    regrow_clear(layer_domain.base, layer_domain.collider, envelope, context, &lowered);
   }
-  seat_on_surfaces(site.base, site.options.envelope, &site.collider, envelope, context);
+  seat_on_surfaces(layer_domain.base, layer_domain.options.envelope, &layer_domain.collider, envelope, context);
   return envelope;
 }
 

@@ -7,8 +7,8 @@
 #include <vector>
 
 #include "volmesh/case/placed_part.h"
+#include "volmesh/layer_domain/layer_domain.h"
 #include "volmesh/parts/part_envelope.h"
-#include "volmesh/site/site.h"
 
 namespace sterna::volmesh {
 
@@ -27,6 +27,6 @@ std::vector<WholePart> whole_parts(const Domain& domain, std::span<const PlacedP
 /// (retract_collisions). Lowered heights grow back where the envelope stays clear. A part with nothing near it keeps its separate envelope.
 /// \pre `parts` were returned by whole_parts() and are not empty
 /// \post the same as for build_envelope()
-Envelope joint_envelope(MeshingSite& site, std::span<const WholePart> parts, const PartEnvelopeMaker& make, const RunContext& context);
+Envelope joint_envelope(LayerDomain& layer_domain, std::span<const WholePart> parts, const PartEnvelopeMaker& make, const RunContext& context);
 
 }  // namespace sterna::volmesh

@@ -92,8 +92,8 @@ Envelope carried_envelope(const LayerBase& base, const EnvelopeOptions& options,
       envelope.limit[v] = reason;
     };
     if (was.is_collapsed(v)) return collapse(was.limit[v]);
-    const Vec3 wanted = carried_direction(base, before, now, v, was.direction[v]);
-    envelope.direction[v] = pull_into_cone(base, v, wanted, before.worst_cosine(v, was.direction[v]));
+    const Vec3 carried = carried_direction(base, before, now, v, was.direction[v]);
+    envelope.direction[v] = pull_into_cone(base, v, carried, before.worst_cosine(v, was.direction[v]));
     double height = was.target[v] > 0.0 ? envelope.target[v] * (was.height[v] / was.target[v]) : envelope.target[v];
     if (was.limit[v] != HeightLimit::none) height = std::min(height, was.height[v]);
     if (was.cap[v] < was.target[v]) envelope.cap[v] = std::min(envelope.cap[v], was.cap[v]);
@@ -144,7 +144,7 @@ Loss lost_coverage(const LayerBase& base, const Envelope& was, const Envelope& e
 }  // namespace
 
 WarmStart warm_start(const LayerBase& base, const EnvelopeOptions& options, const StartingEnvelope& start, Collider& collider, const RunContext& context) {
-  const auto refuse = [](std::string objection, const Point& place = {}) { return WarmStart{{}, std::move(objection), place}; };
+  const auto refuse = [](std::string objection, const Point& location = {}) { return WarmStart{{}, std::move(objection), location}; };
   const std::size_t n = base.wall.n_vertices();
   if (start.points.size() != n || start.envelope.height.size() != n)
     return refuse("the wall has " + std::to_string(n) + " vertices, but the starting envelope has " + std::to_string(start.points.size()));
@@ -158,7 +158,7 @@ WarmStart warm_start(const LayerBase& base, const EnvelopeOptions& options, cons
   if (const EnvelopeCertificate proof = certify_envelope(base, collider, envelope, context); !proof.is_proved())
     return refuse(std::to_string(proof.n_invalid_macro_elements) + " elements would be invalid and " + std::to_string(proof.n_crossings + proof.n_swallowings) +
                       " surfaces would intersect",
-                  proof.worst_macro_element.place);
+                  proof.worst_macro_element.location);
   return {std::move(envelope), {}, {}};
 }
 

@@ -23,7 +23,7 @@ inline constexpr double k_lost_coverage = 0.02;
 struct WarmStart {
   std::optional<Envelope> envelope;  ///< empty: the envelope has to be made from scratch
   std::string objection;             ///< reason why there is no envelope
-  Point place{};                     ///< location to which the reason refers
+  Point location{};                  ///< location to which the reason refers
 };
 
 /// Starts from an envelope of a wall with the same triangles. Directions turn with the wall: by the rotation that maps the normal and an edge of a vertex from

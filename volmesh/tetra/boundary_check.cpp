@@ -39,17 +39,17 @@ ErrorInfo info(ErrorCode code, std::string problem, std::string hint = {}) {
 }
 
 [[noreturn]] void throw_for_triangles(ErrorInfo error, const TetraBoundary& boundary, const Offenders& triangles, const std::string& what) {
-  for (std::size_t i = 0; i < std::min(triangles.size(), k_max_places); ++i) error.places.push_back(place_of_triangle(boundary, triangles[i], what));
+  for (std::size_t i = 0; i < std::min(triangles.size(), k_max_locations); ++i) error.locations.push_back(location_of_triangle(boundary, triangles[i], what));
   for (std::size_t i = 0; i < std::min(triangles.size(), k_triangles_drawn); ++i) add_triangle(error.geometry, boundary, triangles[i]);
-  error.n_places = static_cast<std::int64_t>(triangles.size());
+  error.n_locations = static_cast<std::int64_t>(triangles.size());
   throw Error(std::move(error));
 }
 
 [[noreturn]] void throw_for_points(ErrorInfo error, const TetraBoundary& boundary, const Offenders& points, const std::string& what) {
-  for (std::size_t i = 0; i < std::min(points.size(), k_max_places); ++i) {
-    error.places.push_back({boundary.points[points[i]], "point " + std::to_string(points[i]) + " " + what});
+  for (std::size_t i = 0; i < std::min(points.size(), k_max_locations); ++i) {
+    error.locations.push_back({boundary.points[points[i]], "point " + std::to_string(points[i]) + " " + what});
   }
-  error.n_places = static_cast<std::int64_t>(points.size());
+  error.n_locations = static_cast<std::int64_t>(points.size());
   throw Error(std::move(error));
 }
 
@@ -65,13 +65,13 @@ void check_counts_and_indices(const TetraBoundary& boundary, const RunContext& c
   if (bad.empty()) return;
   ErrorInfo error =
       info(ErrorCode::bad_argument, std::to_string(bad.size()) + " triangles with a vertex index out of range, limit " + std::to_string(n_points));
-  for (std::size_t i = 0; i < std::min(bad.size(), k_max_places); ++i) {
+  for (std::size_t i = 0; i < std::min(bad.size(), k_max_locations); ++i) {
     const auto& t = boundary.triangles[bad[i]];
     const auto known = std::ranges::find_if(t, [&](std::uint32_t v) { return v < n_points; });
-    error.places.push_back({known == t.end() ? Vec3{} : boundary.points[*known], "triangle " + std::to_string(bad[i]) + " (" + std::to_string(t[0]) + ", " +
-                                                                                     std::to_string(t[1]) + ", " + std::to_string(t[2]) + ")"});
+    error.locations.push_back({known == t.end() ? Vec3{} : boundary.points[*known], "triangle " + std::to_string(bad[i]) + " (" + std::to_string(t[0]) + ", " +
+                                                                                        std::to_string(t[1]) + ", " + std::to_string(t[2]) + ")"});
   }
-  error.n_places = static_cast<std::int64_t>(bad.size());
+  error.n_locations = static_cast<std::int64_t>(bad.size());
   throw Error(std::move(error));
 }
 
@@ -85,9 +85,9 @@ void check_coordinates(const TetraBoundary& boundary, const RunContext& context)
   }
 }
 
-void check_points_used(const TetraBoundary& boundary, std::span<const std::array<std::uint32_t, 3>> sheets, const RunContext& context) {
+void check_points_used(const TetraBoundary& boundary, std::span<const std::array<std::uint32_t, 3>> baffles, const RunContext& context) {
   std::vector<std::uint8_t> is_used(boundary.points.size(), 0);
-  for (const auto& triangles : {boundary.triangles, sheets}) {
+  for (const auto& triangles : {boundary.triangles, baffles}) {
     for (const auto& t : triangles)
       for (const std::uint32_t v : t) is_used[v] = 1;
   }
@@ -171,7 +171,7 @@ void check_edges(const TetraBoundary& boundary, const RunContext& context) {
 
 }  // namespace
 
-ErrorPlace place_of_triangle(const TetraBoundary& boundary, std::size_t triangle, const std::string& what) {
+ErrorLocation location_of_triangle(const TetraBoundary& boundary, std::size_t triangle, const std::string& what) {
   const auto& t = boundary.triangles[triangle];
   std::string name = "boundary triangle " + std::to_string(triangle);
   if (!boundary.triangle_patch.empty()) name += " of patch \"" + boundary.patch_names[boundary.triangle_patch[triangle]] + "\"";
@@ -184,15 +184,15 @@ void add_triangle(TroubleGeometry& geometry, const TetraBoundary& boundary, std:
   geometry.triangles.push_back({first, first + 1, first + 2});
 }
 
-void check_boundary(const TetraBoundary& boundary, const RunContext& context, std::span<const std::array<std::uint32_t, 3>> sheets) {
+void check_boundary(const TetraBoundary& boundary, const RunContext& context, std::span<const std::array<std::uint32_t, 3>> baffles) {
   check_counts_and_indices(boundary, context);
-  const TetraBoundary of_sheets{.points = boundary.points, .triangles = sheets, .hole_points = {}};
-  if (!sheets.empty()) check_counts_and_indices(of_sheets, context);
+  const TetraBoundary of_baffles{.points = boundary.points, .triangles = baffles, .hole_points = {}};
+  if (!baffles.empty()) check_counts_and_indices(of_baffles, context);
   check_coordinates(boundary, context);
-  check_points_used(boundary, sheets, context);
+  check_points_used(boundary, baffles, context);
   check_no_twin_points(boundary, context);
   check_triangles(boundary, context);
-  check_triangles(of_sheets, context);
+  check_triangles(of_baffles, context);
   check_edges(boundary, context);
 }
 

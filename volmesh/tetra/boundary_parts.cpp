@@ -68,7 +68,7 @@ class Shell {
 /// have the number -1.
 class Regions {
  public:
-  Regions(const TetraBoundary& boundary, const std::vector<std::int32_t>& component, std::size_t n_components, const std::vector<std::uint8_t>& is_sheet,
+  Regions(const TetraBoundary& boundary, const std::vector<std::int32_t>& component, std::size_t n_components, const std::vector<std::uint8_t>& is_baffle,
           const RunContext& context)
       : boundary_(boundary) {
     std::vector<std::uint32_t> first_vertex(n_components);
@@ -77,14 +77,14 @@ class Regions {
     volumes_ = enclosed_volumes(boundary, component, first_vertex);
     of_component_.assign(n_components, -1);
     for (std::size_t k = 0; k < n_components; ++k) {
-      if (is_sheet[k] != 0 || volumes_[k] >= 0.0) continue;
+      if (is_baffle[k] != 0 || volumes_[k] >= 0.0) continue;
       of_component_[k] = static_cast<std::int32_t>(outer_.size());
       outer_.push_back(k);
     }
     if (outer_.size() > 1)
       for (const std::size_t k : outer_) shells_.emplace_back(boundary, component, static_cast<std::int32_t>(k), context);
     for (std::size_t k = 0; k < n_components; ++k)
-      if (is_sheet[k] == 0 && volumes_[k] >= 0.0) of_component_[k] = around(first_vertex[k], "a closed part of the boundary");
+      if (is_baffle[k] == 0 && volumes_[k] >= 0.0) of_component_[k] = around(first_vertex[k], "a closed part of the boundary");
   }
   std::int32_t of(std::int32_t component) const { return of_component_[static_cast<std::size_t>(component)]; }
 
@@ -99,7 +99,7 @@ class Regions {
     throw Error({.code = ErrorCode::not_orientable,
                  .attempted = "finding the regions of the domain",
                  .problem = what + " lies in no region",
-                 .places = {{boundary_.points[v], "point " + std::to_string(v)}},
+                 .locations = {{boundary_.points[v], "point " + std::to_string(v)}},
                  .hint = "normals must point into the domain: outwards on bodies, inwards on the surfaces around the bodies"});
   }
 
@@ -111,7 +111,7 @@ class Regions {
   std::vector<Shell> shells_;
 };
 
-BoundaryParts parts_without_sheets(const TetraBoundary& boundary, const RunContext& context) {
+BoundaryParts parts_without_baffles(const TetraBoundary& boundary, const RunContext& context) {
   BoundaryParts parts;
   std::size_t n_surfaces = 0;
   const std::vector<std::int32_t> component = number_components(boundary.points.size(), boundary.triangles, n_surfaces);
@@ -125,16 +125,16 @@ BoundaryParts parts_without_sheets(const TetraBoundary& boundary, const RunConte
 }  // namespace
 
 BoundaryParts find_parts(const TetraBoundary& boundary, const JoinedBoundary* joined, const RunContext& context) {
-  if (!joined) return parts_without_sheets(boundary, context);
+  if (!joined) return parts_without_baffles(boundary, context);
   // Both sides of sheets are included here. Each component is then the boundary of one region, or a part of that boundary.
   std::size_t n_components = 0, n_connected = 0;
   const std::vector<std::int32_t> component = number_components(boundary.points.size(), boundary.triangles, n_components);
   const std::vector<std::int32_t> connected = number_components(joined->points.size(), joined->triangles(), n_connected);
-  const auto triangles = joined->triangles(), sheets = joined->sheets();
+  const auto triangles = joined->triangles(), baffles = joined->baffles();
   const auto component_of = [&](std::size_t facet) { return component[boundary.triangles[joined->facet2triangle[facet]][0]]; };
-  std::vector<std::uint8_t> is_sheet(n_components, 1);
-  for (std::size_t i = 0; i < triangles.size(); ++i) is_sheet[static_cast<std::size_t>(component_of(i))] = 0;
-  const Regions regions(boundary, component, n_components, is_sheet, context);
+  std::vector<std::uint8_t> is_baffle(n_components, 1);
+  for (std::size_t i = 0; i < triangles.size(); ++i) is_baffle[static_cast<std::size_t>(component_of(i))] = 0;
+  const Regions regions(boundary, component, n_components, is_baffle, context);
 
   BoundaryParts parts;
   std::map<std::array<std::int32_t, 2>, std::int32_t> surfaces;
@@ -144,20 +144,20 @@ BoundaryParts find_parts(const TetraBoundary& boundary, const JoinedBoundary* jo
     parts.triangle2surface.push_back(surface->second);
   }
   const std::size_t n_surfaces = surfaces.size();
-  const std::vector<std::int32_t> sheet = number_components(joined->points.size(), sheets, parts.n_sheet_surfaces);
-  parts.surface2region.resize(n_surfaces + parts.n_sheet_surfaces, -1);
-  parts.surface2second.assign(n_surfaces + parts.n_sheet_surfaces, -1);
-  for (std::size_t i = 0; i < sheets.size(); ++i) {
-    const std::size_t surface = n_surfaces + static_cast<std::size_t>(sheet[sheets[i][0]]);
+  const std::vector<std::int32_t> baffle = number_components(joined->points.size(), baffles, parts.n_baffle_surfaces);
+  parts.surface2region.resize(n_surfaces + parts.n_baffle_surfaces, -1);
+  parts.surface2second.assign(n_surfaces + parts.n_baffle_surfaces, -1);
+  for (std::size_t i = 0; i < baffles.size(); ++i) {
+    const std::size_t surface = n_surfaces + static_cast<std::size_t>(baffle[baffles[i][0]]);
     parts.triangle2surface.push_back(static_cast<std::int32_t>(surface));
     std::int32_t& region = parts.surface2region[surface];
     if (region >= 0) continue;
     const std::int32_t first = component_of(triangles.size() + i);
-    region = is_sheet[static_cast<std::size_t>(first)] != 0 ? regions.around(boundary.triangles[joined->facet2triangle[triangles.size() + i]][0], "a baffle")
-                                                            : regions.of(first);
-    for (const std::uint32_t v : sheets[i]) {
+    region = is_baffle[static_cast<std::size_t>(first)] != 0 ? regions.around(boundary.triangles[joined->facet2triangle[triangles.size() + i]][0], "a baffle")
+                                                             : regions.of(first);
+    for (const std::uint32_t v : baffles[i]) {
       const std::int32_t second = component[joined->sources[v][1]];
-      if (is_sheet[static_cast<std::size_t>(second)] == 0 && regions.of(second) != region) parts.surface2second[surface] = regions.of(second);
+      if (is_baffle[static_cast<std::size_t>(second)] == 0 && regions.of(second) != region) parts.surface2second[surface] = regions.of(second);
     }
   }
   return parts;

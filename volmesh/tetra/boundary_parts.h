@@ -7,8 +7,8 @@
 #include <vector>
 
 #include "geom/base/run_context.h"
-#include "volmesh/tetra/sheets.h"
 #include "volmesh/tetra/tetra.h"
+#include "volmesh/tetra/tetra_baffles.h"
 
 namespace sterna::volmesh {
 
@@ -19,7 +19,7 @@ struct BoundaryParts {
   std::vector<std::int32_t> triangle2surface;  ///< surface of each triangle; triangles of sheets come last
   std::vector<std::int32_t> surface2region;    ///< region of each surface; regions are in the order of their first surface
   std::vector<std::int32_t> surface2second;    ///< for a sheet between two regions, the region on its second side; otherwise -1
-  std::size_t n_sheet_surfaces = 0;
+  std::size_t n_baffle_surfaces = 0;
   std::size_t n_surfaces() const { return surface2region.size(); }
 };
 

@@ -48,7 +48,7 @@ class Finder {
  private:
   [[noreturn]] void throw_invalid(std::string problem, std::optional<std::uint32_t> triangle = std::nullopt) const {
     ErrorInfo error{.code = ErrorCode::tetra_result_invalid, .attempted = "reading the boundary splits of the engine", .problem = std::move(problem)};
-    if (triangle) error.places.push_back(place_of_triangle(boundary_, *triangle, ""));
+    if (triangle) error.locations.push_back(location_of_triangle(boundary_, *triangle, ""));
     throw Error(std::move(error));
   }
 

@@ -218,8 +218,8 @@ Candidate roomiest_point(const Wall& surface, const TriMesh& wall, const std::ve
       .problem = "the region behind a shell of patch \"" + wall.patches[patch].name + "\" is not a bounded solid",
       .hint = "normals must point out of the body; on shells inside a body they must point into its holes; a body must not lie inside another body"};
   const auto [a, b, c] = corners(wall, triangles.front());
-  if (failure) error.places.push_back({failure->position, failure->what});
-  else error.places.push_back({(a + b + c) / 3.0, "largest triangle of the shell"});
+  if (failure) error.locations.push_back({failure->position, failure->what});
+  else error.locations.push_back({(a + b + c) / 3.0, "largest triangle of the shell"});
   throw Error(std::move(error));
 }
 

@@ -62,7 +62,7 @@ class Request {
     header.n_holes = hole_points.size();
     header.n_triangles = sent.facets.size();
     header.n_surfaces = parts.n_surfaces();
-    header.n_sheet_surfaces = parts.n_sheet_surfaces;
+    header.n_baffle_surfaces = parts.n_baffle_surfaces;
     header.has_size_field = input.sizes ? 1 : 0;
     header.memory_limit = static_cast<std::uint64_t>(options.memory_limit);
     header.scale = scale_;
@@ -179,11 +179,11 @@ std::optional<EngineFailure> judge_count(EngineKind kind, const wire::ReplyHeade
                  "raise tetrahedra.max_new_points, or request larger tetrahedra");
 }
 
-[[noreturn]] void throw_invalid_reply(EngineKind kind, std::string problem, std::vector<ErrorPlace> places = {}) {
+[[noreturn]] void throw_invalid_reply(EngineKind kind, std::string problem, std::vector<ErrorLocation> locations = {}) {
   throw Error({.code = ErrorCode::tetra_result_invalid,
                .attempted = "reading the result of " + std::string(display_name(kind)),
                .problem = std::move(problem),
-               .places = std::move(places)});
+               .locations = std::move(locations)});
 }
 
 /// Stores the splits. Boundary points come directly after the input's boundary points, in the engine's order. Points in the volume follow.
@@ -245,7 +245,7 @@ TetraResult read_result(EngineKind kind, const wire::ReplyHeader& header, const 
     adopt_splits(input.boundary, {triangles, header.n_triangles}, {reinterpret_cast<const std::uint32_t*>(triangles + header.n_triangles), header.n_triangles},
                  result);
   }
-  if (input.joined) part_sheets(input.boundary, *input.joined, result);
+  if (input.joined) part_baffles(input.boundary, *input.joined, result);
   return result;
 }
 

@@ -7,8 +7,8 @@
 #include "geom/base/error.h"
 #include "geom/base/run_context.h"
 #include "volmesh/tetra/boundary_parts.h"
-#include "volmesh/tetra/sheets.h"
 #include "volmesh/tetra/tetra.h"
+#include "volmesh/tetra/tetra_baffles.h"
 #include "volmesh/tetra/wire.h"
 
 namespace sterna::volmesh {

@@ -41,17 +41,17 @@ std::string text_of(const LadderRung& rung) {
 
 /// Corner angle (8 degrees) below which a boundary triangle counts as a sliver. Beside slivers sterna's own engine leaves somewhat more bad tetrahedra than
 /// HXT.
-constexpr double k_needle_cosine = 0.990268;  // 8 degrees
+constexpr double k_sliver_cosine = 0.990268;  // 8 degrees
 /// Largest fraction of slivers for which sterna's own engine is at least as good as HXT (docs/tetrahedra.md).
-constexpr double k_most_needles = 0.02;
+constexpr double k_most_slivers = 0.02;
 
 /// Limit for the fraction of flat and long tetrahedra on tops of wake sheets. Above it, the result of sterna's own engine is worse than that of HXT.
 constexpr double k_most_stuck = 1e-3;
 
-bool is_needle(const Vec3& a, const Vec3& b, const Vec3& c) {
+bool is_sliver(const Vec3& a, const Vec3& b, const Vec3& c) {
   const auto has_narrow_corner = [](const Vec3& p, const Vec3& q, const Vec3& r) {
     const Vec3 u = q - p, v = r - p;
-    return dot(u, v) > k_needle_cosine * norm(u) * norm(v);
+    return dot(u, v) > k_sliver_cosine * norm(u) * norm(v);
   };
   return has_narrow_corner(a, b, c) || has_narrow_corner(b, c, a) || has_narrow_corner(c, a, b);
 }
@@ -62,11 +62,11 @@ bool is_own_first(const TetraBoundary& boundary, const RunContext& context) {
   const auto count = [&](std::size_t begin, std::size_t end) {
     return std::ranges::count_if(boundary.triangles.subspan(begin, end - begin), [&](const std::array<std::uint32_t, 3>& triangle) {
       const auto& [a, b, c] = triangle;
-      return is_needle(boundary.points[a], boundary.points[b], boundary.points[c]);
+      return is_sliver(boundary.points[a], boundary.points[b], boundary.points[c]);
     });
   };
-  const std::ptrdiff_t n_needles = parallel_reduce(context, n, std::ptrdiff_t{0}, count, std::plus());
-  return static_cast<double>(n_needles) <= k_most_needles * static_cast<double>(n);
+  const std::ptrdiff_t n_slivers = parallel_reduce(context, n, std::ptrdiff_t{0}, count, std::plus());
+  return static_cast<double>(n_slivers) <= k_most_slivers * static_cast<double>(n);
 }
 
 /// Returns the attempts in order.
@@ -82,7 +82,7 @@ std::vector<LadderRung> rungs_of(const TetraBoundary& boundary, bool has_sizes, 
       throw_bad("two_pass", "true\" with engine \"" + options.engine, "only TetGen has two passes: set engine = \"automatic\" or \"tetgen\"");
     rungs = {{EngineKind::tetgen, SplitMode::none, true}, {EngineKind::hxt}};
   }
-  if (boundary.has_sheets && options.boundary_splits == "always")
+  if (boundary.has_baffles && options.boundary_splits == "always")
     throw_bad("boundary_splits", "always", "triangles beside baffles (actuator discs) cannot be split");
   if (options.boundary_splits == "always") {
     if (options.engine == "hxt" || options.engine == "sterna")
@@ -96,7 +96,7 @@ std::vector<LadderRung> rungs_of(const TetraBoundary& boundary, bool has_sizes, 
     return {{EngineKind::tetgen, SplitMode::quality, options.two_pass}, {EngineKind::hxt}};
   }
   if (options.boundary_splits == "ladder") {
-    if (splits == SplitPermission::permitted && !boundary.has_sheets) {
+    if (splits == SplitPermission::permitted && !boundary.has_baffles) {
       for (LadderRung& rung : rungs)
         if (rung.engine == EngineKind::tetgen && !rung.is_two_pass) rung.splits = SplitMode::leftovers;
       rungs.push_back({EngineKind::tetgen, SplitMode::recovery});
@@ -141,7 +141,7 @@ EngineOutcome run(const LadderRung& rung, const TetraBoundary& boundary, const J
 }
 
 /// Adds the result of each attempt, and the remedy, to the error.
-void tell_all(const std::vector<EngineFailure>& failures, ErrorInfo& error) {
+void report_all(const std::vector<EngineFailure>& failures, ErrorInfo& error) {
   error.attempted = "filling the volume with tetrahedra";
   error.problem = "all engines failed";
   for (const EngineFailure& failure : failures) error.problem += "; " + failure.error.attempted + ": " + failure.error.problem;
@@ -155,8 +155,8 @@ BoundaryParts checked_parts(const TetraBoundary& boundary, const std::optional<J
   const StageTimer timer(context, "tetrahedra/boundary");
   const TetraBoundary closed =
       joined ? TetraBoundary{.points = joined->points, .triangles = joined->triangles(), .hole_points = boundary.hole_points} : boundary;
-  const auto sheets = joined ? joined->sheets() : std::span<const std::array<std::uint32_t, 3>>();
-  check_boundary(closed, context, sheets);
+  const auto baffles = joined ? joined->baffles() : std::span<const std::array<std::uint32_t, 3>>();
+  check_boundary(closed, context, baffles);
   if (!boundary.clear.is_given()) judge(seen = preflight(boundary, {}, context), boundary, context);
   return find_parts(boundary, joined ? &*joined : nullptr, context);
 }
@@ -170,7 +170,7 @@ struct TetraLadder::State {
         options(tetra_options),
         context(run_context),
         rungs(rungs_of(of, size_supply != nullptr, tetra_options, splits, run_context)),
-        joined(of.has_sheets ? std::optional(join_sheets(of, run_context)) : std::nullopt),
+        joined(of.has_baffles ? std::optional(join_baffles(of, run_context)) : std::nullopt),
         parts(checked_parts(of, joined, seen, run_context)) {
     // If the boundary is proved to be clear, the preflight check only reports what is difficult for engines. It can run in parallel with the first engine.
     if (!boundary.clear.is_given()) return;
@@ -245,7 +245,7 @@ struct TetraLadder::State {
     ErrorInfo error = telling == failures.end() ? failures.front().error : telling->error;
     const bool has_no_end = std::ranges::any_of(failures, &EngineFailure::is_own_limit);
     if (is_repeatable || has_no_end) add_suspects(seen, boundary, error);
-    if (has_no_end) tell_all(failures, error);
+    if (has_no_end) report_all(failures, error);
     throw FillError(std::move(error), is_repeatable, std::move(problems));
   }
 

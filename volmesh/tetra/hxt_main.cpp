@@ -101,7 +101,7 @@ void set_boundary(const helper::Request& request) {
     coordinates[surface].insert(coordinates[surface].end(), request.points + 3 * v, request.points + 3 * v + 3);
   }
   std::vector<std::vector<int>> region2surfaces, region2sheets;
-  const std::size_t n_closed = header.n_surfaces - header.n_sheet_surfaces;
+  const std::size_t n_closed = header.n_surfaces - header.n_baffle_surfaces;
   // The surfaces on both sides of a sheet between two regions share nodes.
   const bool shares_nodes = std::any_of(request.surface2second, request.surface2second + header.n_surfaces, [](int region) { return region >= 0; });
   const auto add_triangles = [&](std::size_t s) { gmsh::model::mesh::addElementsByType(static_cast<int>(s) + 1, k_triangle, {}, corners[s]); };

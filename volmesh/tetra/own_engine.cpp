@@ -23,8 +23,8 @@ namespace {
 // Fractions of the time at the ends of the steps. On a single thread the sizes are made before the recovery and not in parallel with other steps.
 constexpr double k_begins = 0.15, k_begins_alone = 0.45, k_recovery = 0.12, k_refinement_ends = 0.97;
 /// Expected number of tetrahedra per leaf of the size field, a third more than the mean (docs/tetrahedra.md). Unused capacity costs no memory.
-constexpr double k_places_per_leaf = 40.0;
-constexpr double k_most_places = 5e7;  ///< upper limit of the initial capacity
+constexpr double k_locations_per_leaf = 40.0;
+constexpr double k_most_locations = 5e7;  ///< upper limit of the initial capacity
 
 EngineOutcome failed(FailureKind kind, ErrorInfo error) { return {std::nullopt, {kind, std::move(error)}}; }
 
@@ -48,11 +48,11 @@ std::optional<tets::TetMesh> recover_here(const EngineInput& input, std::vector<
   const JoinedBoundary* const joined = input.joined;
   const std::span<const Vec3> points = joined ? std::span<const Vec3>(joined->points) : boundary.points;
   tets::Recovery recovery =
-      tets::recover(points, joined ? joined->triangles() : boundary.triangles, joined ? joined->sheets() : std::span<const tets::Facet>(), context);
+      tets::recover(points, joined ? joined->triangles() : boundary.triangles, joined ? joined->baffles() : std::span<const tets::Facet>(), context);
   const tets::RecoverReport& report = recovery.report;
   if (recovery.mesh.nodes.empty()) {
-    const std::vector<Vec3>& places = recovery.failure.places;
-    failures.push_back("recovery of the boundary: " + recovery.failure.problem + (places.empty() ? "" : ", the first at " + format_point(places[0])));
+    const std::vector<Vec3>& locations = recovery.failure.locations;
+    failures.push_back("recovery of the boundary: " + recovery.failure.problem + (locations.empty() ? "" : ", the first at " + format_point(locations[0])));
     context.warn(failures.back());
     return std::nullopt;
   }
@@ -63,7 +63,7 @@ std::optional<tets::TetMesh> recover_here(const EngineInput& input, std::vector<
   TetraResult result;
   result.new_points.assign(recovery.mesh.points.begin() + static_cast<std::ptrdiff_t>(points.size()), recovery.mesh.points.end());
   result.tetrahedra = std::move(recovery.mesh.nodes);
-  part_sheets(boundary, *joined, result);
+  part_baffles(boundary, *joined, result);
   return tets::connect(all_points(boundary, result), result.tetrahedra, context);
 }
 
@@ -79,7 +79,7 @@ EngineOutcome recover_elsewhere(const EngineInput& input, const TetraOptions& op
   return second.result || first.failure.kind == FailureKind::missing ? std::move(second) : std::move(first);
 }
 
-std::string told(const tets::RefineReport& report, std::size_t n_tets, double recovery_seconds, double seconds) {
+std::string summary_of(const tets::RefineReport& report, std::size_t n_tets, double recovery_seconds, double seconds) {
   char text[300];
   std::snprintf(text, sizeof text,
                 "refinement: %lld points in %d rounds, %zu tetrahedra; %lld larger than the target size, %lld of them flat and long; %.0f bytes for each; "
@@ -133,14 +133,14 @@ bool refine_mesh(const EngineInput& input, tets::TetMesh mesh, double most_bytes
   const auto start = std::chrono::steady_clock::now();
   const std::size_t n_boundary = input.boundary.points.size();
   const SizeField& field = input.sizes->get();
-  const double expected = k_places_per_leaf * static_cast<double>(field.view().header().n_leaves);
+  const double expected = k_locations_per_leaf * static_cast<double>(field.view().header().n_leaves);
   const tets::RefineReport report =
-      tets::refine(mesh, static_cast<std::uint32_t>(n_boundary), field, context, most_bytes, static_cast<std::size_t>(std::min(expected, k_most_places)));
+      tets::refine(mesh, static_cast<std::uint32_t>(n_boundary), field, context, most_bytes, static_cast<std::size_t>(std::min(expected, k_most_locations)));
   if (report.is_over_limit) return false;
   TetraResult& result = *outcome.result;
   outcome.stuck_share = static_cast<double>(report.n_far) / static_cast<double>(std::max<std::size_t>(mesh.nodes.size(), 1));
   const double seconds = seconds_since(start);
-  context.debug(told(report, mesh.nodes.size(), result.engine_seconds, seconds));
+  context.debug(summary_of(report, mesh.nodes.size(), result.engine_seconds, seconds));
   result.new_points.assign(mesh.points.begin() + static_cast<std::ptrdiff_t>(n_boundary), mesh.points.end());
   result.tetrahedra = std::move(mesh.nodes);
   result.engine = to_string(EngineKind::sterna);

@@ -9,7 +9,7 @@
 #include "geom/math/intersect.h"
 #include "geom/mesh/bvh.h"
 #include "volmesh/tetra/boundary_check.h"
-#include "volmesh/tetra/sheets.h"
+#include "volmesh/tetra/tetra_baffles.h"
 
 namespace sterna::volmesh {
 namespace {
@@ -202,8 +202,8 @@ std::string_view to_string(Trouble trouble) {
 }
 
 PreflightReport preflight(const TetraBoundary& boundary, const PreflightLimits& limits, const RunContext& context) {
-  if (boundary.has_sheets) {
-    const JoinedBoundary joined = join_sheets(boundary, context);
+  if (boundary.has_baffles) {
+    const JoinedBoundary joined = join_baffles(boundary, context);
     PreflightReport report = preflight({.points = joined.points, .triangles = joined.facets, .hole_points = {}}, limits, context);
     for (PreflightFinding& finding : report.findings)
       for (std::uint32_t& t : finding.triangles) t = joined.facet2triangle[t];
@@ -237,15 +237,15 @@ PreflightReport preflight(const TetraBoundary& boundary, const PreflightLimits& 
 }
 
 void add_suspects(const PreflightReport& report, const TetraBoundary& boundary, ErrorInfo& error) {
-  if (!error.places.empty()) return;
+  if (!error.locations.empty()) return;
   for (const Trouble trouble : {Trouble::folded, Trouble::gap, Trouble::sliver}) {
-    error.n_places += report.count(trouble);
+    error.n_locations += report.count(trouble);
     std::vector<PreflightFinding> worst;
     std::ranges::copy_if(report.findings, std::back_inserter(worst), [&](const PreflightFinding& f) { return f.trouble == trouble; });
     std::ranges::stable_sort(worst, std::less(), &PreflightFinding::value);
     for (const PreflightFinding& finding : worst) {
-      if (error.places.size() < k_max_places)
-        error.places.push_back(place_of_triangle(boundary, finding.triangles[0], text_of(finding) + " (difficult for tetrahedra engines)"));
+      if (error.locations.size() < k_max_locations)
+        error.locations.push_back(location_of_triangle(boundary, finding.triangles[0], text_of(finding) + " (difficult for tetrahedra engines)"));
       for (const std::uint32_t t : finding.triangles) add_triangle(error.geometry, boundary, t);
     }
   }
@@ -255,15 +255,15 @@ void judge(const PreflightReport& report, const TetraBoundary& boundary, const R
   for (const Trouble trouble : {Trouble::folded, Trouble::sliver, Trouble::gap}) {
     if (report.count(trouble) == 0) continue;
     const auto first = std::ranges::find(report.findings, trouble, &PreflightFinding::trouble);
-    const ErrorPlace place = place_of_triangle(boundary, first->triangles[0], text_of(*first));
+    const ErrorLocation location = location_of_triangle(boundary, first->triangles[0], text_of(*first));
     context.warn("boundary of the tetrahedra: " + std::to_string(report.count(trouble)) + " " + std::string(to_string(trouble)) + ", the first at " +
-                 format_point(place.position) + ": " + place.what);
+                 format_point(location.position) + ": " + location.what);
   }
   const std::int64_t n_fatal = report.count(Trouble::crossing) + report.count(Trouble::duplicate);
   if (n_fatal == 0) return;
   ErrorInfo error{.code = ErrorCode::self_intersection,
                   .attempted = "checking the boundary of the tetrahedra",
-                  .n_places = n_fatal,
+                  .n_locations = n_fatal,
                   .hint = "repair the crossing triangles"};
   for (const Trouble trouble : {Trouble::crossing, Trouble::duplicate}) {
     if (report.count(trouble) > 0)
@@ -271,7 +271,7 @@ void judge(const PreflightReport& report, const TetraBoundary& boundary, const R
   }
   for (const PreflightFinding& finding : report.findings) {
     if (finding.trouble != Trouble::crossing && finding.trouble != Trouble::duplicate) continue;
-    if (error.places.size() < k_max_places) error.places.push_back(place_of_triangle(boundary, finding.triangles[0], text_of(finding)));
+    if (error.locations.size() < k_max_locations) error.locations.push_back(location_of_triangle(boundary, finding.triangles[0], text_of(finding)));
     for (const std::uint32_t t : finding.triangles) add_triangle(error.geometry, boundary, t);
   }
   throw Error(std::move(error));

@@ -1,5 +1,5 @@
-// The octree of a size field. Steps: collect sites from boundary and samples; refine level by level until no leaf is longer than the size at its centre allows,
-// with all cells of a level in parallel; compute values at the corners; pack.
+// The octree of a size field. Steps: collect size points from boundary and samples; refine level by level until no leaf is longer than the size at its centre
+// allows, with all cells of a level in parallel; compute values at the corners; pack.
 //
 // No source is missed, however small. Within a cell of edge e the distance of the source from the centre is at most e sqrt(3)/2. At the centre it therefore
 // requires at most its size + slope e sqrt(3)/2. The cell is split as long as that is below e / k_edge_over_size, and k_edge_over_size is lowered for steep
@@ -14,7 +14,7 @@
 
 #include "geom/base/error.h"
 #include "geom/base/parallel.h"
-#include "geom/mesh/size_sites.h"
+#include "geom/mesh/size_points.h"
 
 namespace sterna::volmesh {
 namespace {
@@ -32,7 +32,7 @@ constexpr std::size_t k_leaf_chunk = 1024;
 
 struct Octant {
   std::uint32_t x = 0, y = 0, z = 0;  ///< position in units of the edge of its level
-  std::uint32_t hint = 0;             ///< site that was nearest to the centre of the parent
+  std::uint32_t hint = 0;             ///< size point that was nearest to the centre of the parent
 };
 
 class Builder {
@@ -43,7 +43,7 @@ class Builder {
         edge_over_size_(std::min(k_edge_over_size, 1.0 / slope_)),
         sources_(sources),
         context_(context),
-        sites_(sites_of(boundary, sources), slope_, context) {
+        size_points_(size_points_of(boundary, sources), slope_, context) {
     Box box;
     for (const Vec3& p : boundary.points) box.add(p);
     edge_ = (1.0 + 2.0 * k_margin) * box.longest_side();
@@ -57,10 +57,10 @@ class Builder {
   }
 
  private:
-  static std::vector<SizeSite> sites_of(const TetraBoundary& boundary, std::span<const SizeSource> sources);
+  static std::vector<SizePoint> size_points_of(const TetraBoundary& boundary, std::span<const SizeSource> sources);
   /// Returns the exact value of the field, before interpolation.
   double size_at(const Vec3& p, std::uint32_t& hint) const {
-    double size = std::min(sites_.smallest(p, hint), largest_);
+    double size = std::min(size_points_.smallest(p, hint), largest_);
     for (const SizeSource& source : sources_) size = std::min(size, size_of(source, p, slope_));
     return size;
   }
@@ -74,7 +74,7 @@ class Builder {
   double edge_over_size_;
   std::span<const SizeSource> sources_;
   const RunContext& context_;
-  SizeSites sites_;
+  SizePointTree size_points_;
   Vec3 origin_;
   double edge_ = 0.0;
   std::vector<std::uint32_t> nodes_;
@@ -82,9 +82,9 @@ class Builder {
   std::vector<std::uint8_t> leaf_level_;
 };
 
-/// Returns the sites: boundary vertices with the geometric mean of their edges, and the samples. (The geometric mean favours neither long nor short edges;
-/// slivers have no short edge.)
-std::vector<SizeSite> Builder::sites_of(const TetraBoundary& boundary, std::span<const SizeSource> sources) {
+/// Returns the size points: boundary vertices with the geometric mean of their edges, and the samples. (The geometric mean favours neither long nor short
+/// edges; slivers have no short edge.)
+std::vector<SizePoint> Builder::size_points_of(const TetraBoundary& boundary, std::span<const SizeSource> sources) {
   std::vector<double> logs(boundary.points.size(), 0.0);
   std::vector<std::uint32_t> counts(boundary.points.size(), 0);
   for (const auto& t : boundary.triangles) {
@@ -95,13 +95,13 @@ std::vector<SizeSite> Builder::sites_of(const TetraBoundary& boundary, std::span
       ++counts[t[k]];
     }
   }
-  std::vector<SizeSite> sites;
-  sites.reserve(boundary.points.size());
+  std::vector<SizePoint> size_points;
+  size_points.reserve(boundary.points.size());
   for (std::size_t i = 0; i < boundary.points.size(); ++i)
-    if (counts[i] > 0) sites.push_back({boundary.points[i], std::exp(logs[i] / counts[i])});
+    if (counts[i] > 0) size_points.push_back({boundary.points[i], std::exp(logs[i] / counts[i])});
   for (const SizeSource& source : sources)
-    for (std::size_t i = 0; i < source.points.size() && source.kind == SourceKind::samples; ++i) sites.push_back({source.points[i], source.sizes[i]});
-  return sites;
+    for (std::size_t i = 0; i < source.points.size() && source.kind == SourceKind::samples; ++i) size_points.push_back({source.points[i], source.sizes[i]});
+  return size_points;
 }
 
 /// Refines the octree. The children of a level are in the order of their parents, so every level is sorted along the same space-filling curve.
@@ -208,7 +208,7 @@ void require_sane(const TetraBoundary& boundary, std::span<const SizeSource> sou
     throw Error({.code = ErrorCode::bad_argument,
                  .attempted = "building the size field",
                  .problem = "source " + std::to_string(i + 1) + " (" + std::string(to_string(sources[i].kind)) + "): " + problem,
-                 .places = {{sources[i].from, "source"}}});
+                 .locations = {{sources[i].from, "source"}}});
   }
 }
 
@@ -219,12 +219,12 @@ double SizeField::volume_over_cubes() const {
   // size_field_view.h describes the layout of the buffer.
   const auto* nodes = reinterpret_cast<const std::uint32_t*>(bytes().data() + sizeof(SizeFieldView::Header));
   const auto* values = reinterpret_cast<const float*>(bytes().data() + sizeof(SizeFieldView::Header) + 8 * ((header.n_nodes + 1) / 2));
-  struct Place {
+  struct Location {
     std::uint32_t node;
     double edge;
   };
   double sum = 0.0;
-  std::vector<Place> open{{0, header.edge}};
+  std::vector<Location> open{{0, header.edge}};
   while (!open.empty()) {
     const auto [at, edge] = open.back();
     open.pop_back();

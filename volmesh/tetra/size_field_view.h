@@ -54,7 +54,7 @@ class SizeFieldView {
   /// \pre is_valid(), and the coordinates are finite
   double operator()(double x, double y, double z) const {
     constexpr double k_steps = 1 << k_max_depth;
-    const double u[3] = {place(x, 0), place(y, 1), place(z, 2)};
+    const double u[3] = {location(x, 0), location(y, 1), location(z, 2)};
     const std::uint32_t at[3] = {static_cast<std::uint32_t>(u[0] * k_steps), static_cast<std::uint32_t>(u[1] * k_steps),
                                  static_cast<std::uint32_t>(u[2] * k_steps)};
     std::uint32_t node = nodes_[0];
@@ -74,7 +74,7 @@ class SizeFieldView {
 
  private:
   /// Returns the position in the root cube as a fraction of its edge, in [0, 1).
-  double place(double x, int axis) const {
+  double location(double x, int axis) const {
     constexpr double k_below_one = 1.0 - 0x1p-40;
     const double u = (x - header_.origin[axis]) * inverse_edge_;
     return u > 0.0 ? (u < k_below_one ? u : k_below_one) : 0.0;

@@ -102,8 +102,8 @@ double circumradius(const double* a, const double* b, const double* c, const dou
 /// Callback of TetGen for every tetrahedron that it might refine.
 bool is_too_large(double* a, double* b, double* c, double* d, double*, double) {
   const auto middle = [&](std::size_t k) { return 0.25 * (a[k] + b[k] + c[k] + d[k]); };
-  const double wanted = (*sizes_of_callback())(middle(0), middle(1), middle(2));
-  return circumradius(a, b, c, d) > k_radius_limit * wanted;
+  const double target = (*sizes_of_callback())(middle(0), middle(1), middle(2));
+  return circumradius(a, b, c, d) > k_radius_limit * target;
 }
 
 /// Switches: -p boundary, -q<ratio> quality, -Y keep the boundary, -M merge nothing (every edge of the boundary stays a single edge), -F write no faces, -Q
@@ -114,7 +114,7 @@ std::string switches(const char* format, double radius_edge) {
   return text;
 }
 constexpr const char* k_keep_boundary = "pq%.9gYMFQT1e-16";
-constexpr const char* k_tell_boundary = "pq%.9gYMQT1e-16";
+constexpr const char* k_report_boundary = "pq%.9gYMQT1e-16";
 constexpr const char* k_recover_only = "pYMFQT1e-16";
 constexpr const char* k_split_for_quality = "pq%.9gMQT1e-16";
 constexpr const char* k_split_to_recover = "pMQT1e-16";
@@ -165,7 +165,7 @@ void tetrahedralize_surface(const Request& request, const Surface& surface, std:
       tetrahedralize_surface(request, whole, request.header->is_recovery_only ? k_recover_only : switches(k_keep_boundary, radius_edge), out);
       break;
     case wire::Splits::leftovers:
-      tetrahedralize_surface(request, whole, switches(k_tell_boundary, radius_edge), out);
+      tetrahedralize_surface(request, whole, switches(k_report_boundary, radius_edge), out);
       if (static_cast<std::size_t>(out.numberoftrifaces) != whole.n_triangles) split.emplace(out, whole.n_points, false);
       break;
     case wire::Splits::quality:

@@ -31,7 +31,7 @@ struct TetraBoundary {
   /// location, except on boundary edges of the sheet that end free in the domain. There both sides share one point, and every triangle has a corner that is not
   /// shared. Boundary edges of a sheet may also lie on edges of the rest of the boundary, which also has two points at each location there. All triangles
   /// together are closed and manifold by their indices. fill() tests all this, and rejects sheets in a boundary without the flag.
-  bool has_sheets = false;
+  bool has_baffles = false;
   /// Parts of the boundary are tops of layers on wake sheets. They are wide, flat and fine, and refinement by sterna's own engine may get stuck there. The flag
   /// affects only the choice of the engine.
   bool has_wakes = false;
@@ -116,9 +116,9 @@ class TetraLadder {
 /// unless `fall_back_on_limits` is set. If the engine's default limit of processor time is reached, which is proportional to boundary and sizes, the other
 /// engine is tried; splits follow only with `fall_back_on_limits`. Every step is logged as a warning and stored in the result.
 ///
-/// For the engines, sheets are a single layer of facets (sheets.h). The result is separated into both sides, and no engine may split triangles. With `two_pass`
-/// TetGen comes first and runs twice. The first run makes a coarse mesh without sizes. The second run uses the smaller of the smoothed sizes at its nodes and
-/// the size field. A stop of the context or the time limit kills the helper process immediately; it never outlives the call.
+/// For the engines, sheets are a single layer of facets (tetra_baffles.h). The result is separated into both sides, and no engine may split triangles. With
+/// `two_pass` TetGen comes first and runs twice. The first run makes a coarse mesh without sizes. The second run uses the smaller of the smoothed sizes at its
+/// nodes and the size field. A stop of the context or the time limit kills the helper process immediately; it never outlives the call.
 /// \throws FillError if the engines have failed; Error bad_argument (index, coordinate, unused point, repeated or collinear corners), open_surface,
 /// non_manifold_surface, self_intersection, not_orientable for the boundary; tetra_engine_missing; tetra_engine_failed (crash, its own error, time or memory
 /// limit); tetra_result_invalid; cancelled. Errors contain locations if available. After several failures the error of the first is thrown.

@@ -22,7 +22,7 @@ constexpr std::size_t k_owner_chunk = 1 << 14;               ///< number of owne
 constexpr std::size_t k_bucket_owners = 1 << 12;             ///< mean number of owners per bucket: 16 000 faces, or 256 kB, fit into the second-level cache
 constexpr std::size_t k_most_buckets = 4096;
 constexpr std::size_t k_buckets_per_task = 4;
-constexpr std::size_t k_places_kept = 1000;
+constexpr std::size_t k_locations_kept = 1000;
 
 enum class Fault : std::uint8_t { bad_index, not_positive, missing_boundary, free_face, crowded_face, same_sense };
 constexpr std::array<const char*, 6> k_fault_text = {
@@ -41,14 +41,14 @@ struct Defects {
 
   void add(const Defect& finding) {
     ++counts[static_cast<std::size_t>(finding.fault)];
-    if (kept.size() < k_places_kept) kept.push_back(finding);
+    if (kept.size() < k_locations_kept) kept.push_back(finding);
   }
   bool empty() const { return kept.empty(); }
 };
 
 Defects joined_defects(Defects a, const Defects& b) {
   for (std::size_t i = 0; i < a.counts.size(); ++i) a.counts[i] += b.counts[i];
-  const std::size_t room = std::min(b.kept.size(), k_places_kept - a.kept.size());
+  const std::size_t room = std::min(b.kept.size(), k_locations_kept - a.kept.size());
   a.kept.insert(a.kept.end(), b.kept.begin(), b.kept.begin() + static_cast<std::ptrdiff_t>(room));
   return a;
 }
@@ -125,9 +125,9 @@ FaceBuckets throw_into_buckets(const Owners& owners, std::size_t n_nodes, const 
     }
   };
 
-  std::vector<std::size_t> place(n_chunks * n_buckets, 0);  // first the counts, then the next free position of each chunk in each bucket
+  std::vector<std::size_t> location(n_chunks * n_buckets, 0);  // first the counts, then the next free position of each chunk in each bucket
   parallel_chunks(context, owners.size(), k_owner_chunk, [&](std::size_t begin, std::size_t end) {
-    std::size_t* count = place.data() + begin / k_owner_chunk * n_buckets;
+    std::size_t* count = location.data() + begin / k_owner_chunk * n_buckets;
     for_faces(begin, end, [&](const FaceEntry& e) { ++count[bucket_of(e)]; });
   });
   FaceBuckets buckets;
@@ -136,12 +136,12 @@ FaceBuckets throw_into_buckets(const Owners& owners, std::size_t n_nodes, const 
   std::size_t total = 0;
   for (std::size_t bucket = 0; bucket < n_buckets; ++bucket) {
     buckets.first[bucket] = total;
-    for (std::size_t chunk = 0; chunk < n_chunks; ++chunk) total += std::exchange(place[chunk * n_buckets + bucket], total);
+    for (std::size_t chunk = 0; chunk < n_chunks; ++chunk) total += std::exchange(location[chunk * n_buckets + bucket], total);
   }
   buckets.first[n_buckets] = total;
   buckets.entries.resize(total);
   parallel_chunks(context, owners.size(), k_owner_chunk, [&](std::size_t begin, std::size_t end) {
-    std::size_t* next = place.data() + begin / k_owner_chunk * n_buckets;
+    std::size_t* next = location.data() + begin / k_owner_chunk * n_buckets;
     for_faces(begin, end, [&](const FaceEntry& e) { buckets.entries[next[bucket_of(e)]++] = e; });
   });
   return buckets;
@@ -244,13 +244,13 @@ void check_new_points(const TetraBoundary& boundary, const TetraResult& result) 
     if (!is_finite(result.new_points[i])) throw Error(invalid("new point " + std::to_string(i) + " is not finite"));
     if (is_used[i]) continue;
     ErrorInfo error = invalid("new point " + std::to_string(i) + " is not used by any tetrahedron");
-    error.places.push_back({result.new_points[i], "new point " + std::to_string(i)});
+    error.locations.push_back({result.new_points[i], "new point " + std::to_string(i)});
     throw Error(std::move(error));
   }
 }
 
-ErrorPlace place_of(const Defect& finding, const Owners& owners, const Nodes& nodes) {
-  if (owners.is_boundary(finding.owner)) return place_of_triangle(owners.boundary, finding.owner - owners.n_tetrahedra, "");
+ErrorLocation location_of(const Defect& finding, const Owners& owners, const Nodes& nodes) {
+  if (owners.is_boundary(finding.owner)) return location_of_triangle(owners.boundary, finding.owner - owners.n_tetrahedra, "");
   Vec3 sum;
   int n = 0;
   const auto add = [&](std::uint32_t v) {
@@ -273,15 +273,15 @@ void throw_if_any(const Defects& findings, const Owners& owners, const Nodes& no
   for (std::size_t i = 0; i < findings.counts.size(); ++i) {
     if (findings.counts[i] == 0) continue;
     error.problem += (error.problem.empty() ? "" : ", ") + std::to_string(findings.counts[i]) + " " + k_fault_text[i];
-    error.n_places += findings.counts[i];
+    error.n_locations += findings.counts[i];
   }
   for (const Defect& finding : findings.kept) {
-    if (error.places.size() < k_max_places) error.places.push_back(place_of(finding, owners, nodes));
+    if (error.locations.size() < k_max_locations) error.locations.push_back(location_of(finding, owners, nodes));
     if (owners.is_boundary(finding.owner)) {
       add_triangle(error.geometry, owners.boundary, finding.owner - owners.n_tetrahedra);
     } else {
       error.geometry.vertices.push_back(static_cast<std::uint32_t>(error.geometry.points.size()));
-      error.geometry.points.push_back(place_of(finding, owners, nodes).position);
+      error.geometry.points.push_back(location_of(finding, owners, nodes).position);
     }
   }
   if (findings.counts[static_cast<std::size_t>(Fault::missing_boundary)] > 0) {

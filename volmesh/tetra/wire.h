@@ -40,10 +40,10 @@ struct RequestHeader {
   double radius_edge = 0.0;          ///< largest ratio of circumradius to shortest edge; for TetGen only
   double improve_below = 0.0;        ///< the engine improves tetrahedra of a lower quality (1: regular tetrahedron); 0: it improves none; for HXT only
   Splits splits = Splits::none;
-  std::uint64_t is_recovery_only = 0;  ///< 1: the engine recovers the boundary, and inserts only points that this needs into the volume
-  std::uint64_t n_sheet_surfaces = 0;  ///< number of sheet surfaces, which are the last
-  double processor_seconds = 0.0;      ///< the engine ends with Outcome::out_of_time after this processor time; 0: never
-  double seconds_per_leaf = 0.0;       ///< additional processor time per leaf of the size field, once that is available
+  std::uint64_t is_recovery_only = 0;   ///< 1: the engine recovers the boundary, and inserts only points that this needs into the volume
+  std::uint64_t n_baffle_surfaces = 0;  ///< number of sheet surfaces, which are the last
+  double processor_seconds = 0.0;       ///< the engine ends with Outcome::out_of_time after this processor time; 0: never
+  double seconds_per_leaf = 0.0;        ///< additional processor time per leaf of the size field, once that is available
 };
 
 enum class Outcome : std::int32_t {

@@ -24,18 +24,18 @@ TEST(Parallel, EveryIndexOnceForAnyThreadCount) {
   }
 }
 
-/// Number of different threads in a loop whose chunks wait until `wanted` threads are inside the loop or 20 s have passed.
-std::size_t threads_inside(const RunContext& context, std::size_t wanted) {
+/// Number of different threads in a loop whose chunks wait until `required` threads are inside the loop or 20 s have passed.
+std::size_t threads_inside(const RunContext& context, std::size_t required) {
   std::mutex mutex;
   std::condition_variable arrival;
   std::set<std::thread::id> seen;
   parallel_for(
-      context, wanted,
+      context, required,
       [&](std::size_t) {
         std::unique_lock lock(mutex);
         seen.insert(std::this_thread::get_id());
         arrival.notify_all();
-        arrival.wait_for(lock, std::chrono::seconds(20), [&] { return seen.size() >= wanted; });
+        arrival.wait_for(lock, std::chrono::seconds(20), [&] { return seen.size() >= required; });
       },
       1);
   return seen.size();

@@ -12,7 +12,7 @@
 #include "geom/math/measures.h"
 #include "geom/mesh/find_crossings.h"
 #include "geom/mesh/topology.h"
-#include "tests/support/shapes.h"
+#include "tests/support/test_shapes.h"
 
 namespace sterna::test {
 

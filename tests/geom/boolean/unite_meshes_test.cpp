@@ -45,13 +45,13 @@ TEST(UniteMeshes, BodiesTouchingInEdgeOrPointAreErrors) {
   const ErrorInfo edge = union_error({cube(1), shifted(cube(1), {1, 1, 0})});
   EXPECT_EQ(edge.code, ErrorCode::non_manifold_surface);
   EXPECT_THAT(edge.attempted, HasSubstr("b and a cannot be united"));
-  ASSERT_FALSE(edge.places.empty());
-  EXPECT_LT(distance(edge.places.front().position, {1, 1, 0.5}), 1.0);
+  ASSERT_FALSE(edge.locations.empty());
+  EXPECT_LT(distance(edge.locations.front().position, {1, 1, 0.5}), 1.0);
   EXPECT_FALSE(edge.geometry.triangles.empty());
   const ErrorInfo point = union_error({cube(1), shifted(cube(1), {1, 1, 1})});
   EXPECT_TRUE(point.code == ErrorCode::self_intersection || point.code == ErrorCode::non_manifold_surface) << to_string(point.code);
-  ASSERT_FALSE(point.places.empty());
-  EXPECT_LT(distance(point.places.front().position, {1, 1, 1}), 1.5);
+  ASSERT_FALSE(point.locations.empty());
+  EXPECT_LT(distance(point.locations.front().position, {1, 1, 1}), 1.5);
 }
 
 TEST(UniteMeshes, ABodyInsideAnotherVanishesWithAMessage) {
@@ -202,13 +202,13 @@ TEST(UniteMeshes, OpenOrCrossingPartsAreErrorsWithLocation) {
   const ErrorInfo hole = union_error({sphere(2), open});
   EXPECT_EQ(hole.code, ErrorCode::open_surface);
   EXPECT_THAT(hole.attempted, HasSubstr("b is open: 3 edges"));
-  EXPECT_EQ(hole.places.size(), 3u);
+  EXPECT_EQ(hole.locations.size(), 3u);
   TriMesh pierced = sphere(4);
   pierced.points.raw()[0] = -1.5 * pierced.points.raw()[0];
   const ErrorInfo crossing = union_error({pierced, shifted(cube(1), {5, 0, 0})});
   EXPECT_EQ(crossing.code, ErrorCode::self_intersection);
   EXPECT_THAT(crossing.attempted, HasSubstr("a crosses itself"));
-  EXPECT_FALSE(crossing.places.empty());
+  EXPECT_FALSE(crossing.locations.empty());
   EXPECT_FALSE(crossing.hint.empty());
   EXPECT_EQ(union_error({}).code, ErrorCode::empty_surface);
 }

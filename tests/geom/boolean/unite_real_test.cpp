@@ -64,8 +64,8 @@ TEST(UniteReal, Martlet2NamesTheShellThatCrossesItself) {
   const ErrorInfo info = nasty_error("martlet_rocket_Martlet2.stl");
   EXPECT_EQ(info.code, ErrorCode::self_intersection);
   EXPECT_THAT(info.problem, testing::HasSubstr("component 6 of martlet_rocket_Martlet2.stl"));
-  ASSERT_FALSE(info.places.empty());
-  EXPECT_NEAR(info.places.front().position.x, 933.0, 15.0);
+  ASSERT_FALSE(info.locations.empty());
+  EXPECT_NEAR(info.locations.front().position.x, 933.0, 15.0);
   EXPECT_FALSE(info.geometry.triangles.empty());
 }
 
@@ -73,14 +73,14 @@ TEST(UniteReal, HdAirframeNamesItsOpenEdges) {
   STERNA_NEEDS_SHARED_DATA();
   const ErrorInfo info = nasty_error("hd_airframe_HD-airframe-aileron-gap.stl");
   EXPECT_EQ(info.code, ErrorCode::open_surface);
-  EXPECT_EQ(info.n_places, 8);
+  EXPECT_EQ(info.n_locations, 8);
 }
 
 TEST(UniteReal, AShellThatCrossesItselfIsNamed) {
   STERNA_NEEDS_SHARED_DATA();
   const ErrorInfo info = nasty_error("nasty_manifold_self_intersectA.obj");
   EXPECT_EQ(info.code, ErrorCode::self_intersection);
-  EXPECT_EQ(info.n_places, 338);  // tests/data/nasty_surfaces.tsv
+  EXPECT_EQ(info.n_locations, 338);  // tests/data/nasty_surfaces.tsv
 }
 
 }  // namespace

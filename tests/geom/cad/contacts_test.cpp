@@ -46,8 +46,8 @@ TEST(Contacts, NearlyTangentJoinIsReportedWithItsAngle) {
   EXPECT_EQ(contact.kind, ContactKind::crossing);
   EXPECT_LT(contact.angle, 0.2);
   EXPECT_TRUE(contact.is_crevice);
-  EXPECT_NEAR(contact.place.z, 0.499, 0.01);
-  EXPECT_LT(std::abs(contact.place.y), 0.06);
+  EXPECT_NEAR(contact.location.z, 0.499, 0.01);
+  EXPECT_LT(std::abs(contact.location.y), 0.06);
   const std::vector<Model> smooth = {tube("low", 0.5), tube("high", 0.5, {.origin = {0.3, 0, 0.02}})};
   const PartContact along = only_contact(smooth);
   EXPECT_FALSE(along.is_crevice);
@@ -59,11 +59,11 @@ TEST(Contacts, GapsTouchesAndPartsInsideOthersAreTold) {
   PartContact contact = only_contact(apart);
   EXPECT_EQ(contact.kind, ContactKind::apart);
   EXPECT_NEAR(contact.gap, 0.25, 1e-3);
-  EXPECT_NEAR(contact.place.z, 0.625, 1e-3);
+  EXPECT_NEAR(contact.location.z, 0.625, 1e-3);
   const std::vector<Model> touching = {test::cylinder(1.0, 2.0, {}, "low"), test::cylinder(0.5, 1.0, {0.1, 0, 2.0}, "high")};
   contact = only_contact(touching);
   EXPECT_NE(cad::doubt_of(contact, touching), "");
-  EXPECT_NEAR(contact.place.z, 2.0, 1e-9);
+  EXPECT_NEAR(contact.location.z, 2.0, 1e-9);
   const std::vector<Model> inside = {tube("fuel", 0.2, {.origin = {0, 0, 0.1}}), test::cylinder(9.0, 20.0, {0, 0, -10}, "hangar")};
   contact = only_contact(inside);
   EXPECT_EQ(contact.kind, ContactKind::inside);
@@ -113,10 +113,10 @@ TEST(Unite, EndsWithinItsTimeLimit) {
 TEST(Unite, StopsSoonAfterItIsAskedTo) {
   std::stop_source source;
   const RunContext context({.stop = source.get_token()});
-  std::chrono::steady_clock::time_point asked;
+  std::chrono::steady_clock::time_point requested;
   std::jthread other([&] {
     std::this_thread::sleep_for(std::chrono::milliseconds(1500));
-    asked = std::chrono::steady_clock::now();
+    requested = std::chrono::steady_clock::now();
     source.request_stop();
   });
   try {
@@ -125,7 +125,7 @@ TEST(Unite, StopsSoonAfterItIsAskedTo) {
   } catch (const Error& error) {
     EXPECT_EQ(error.code(), ErrorCode::cancelled);
   }
-  EXPECT_LT(seconds_since(asked), 5.0);  // limit for a busy machine; below 1 s on an idle machine
+  EXPECT_LT(seconds_since(requested), 5.0);  // limit for a busy machine; below 1 s on an idle machine
 }
 
 TEST(Unite, APairThatDoesNotUniteIsNamed) {
@@ -139,7 +139,7 @@ TEST(Unite, APairThatDoesNotUniteIsNamed) {
     EXPECT_EQ(error.code(), ErrorCode::geometry_failed);
     const std::string text = error.what();
     EXPECT_NE(text.find("\"drum\" and \"wire\" cannot be united"), std::string::npos) << text;
-    EXPECT_FALSE(error.info().places.empty());
+    EXPECT_FALSE(error.info().locations.empty());
   }
 }
 

@@ -89,11 +89,11 @@ TEST(FluidDomain, ModelAndStingThatTouchAreUnitedFirst) {
 }
 
 TEST(FluidDomain, StrutStandsOnFloorOrPassesThroughIt) {
-  for (const double foot : {-1.0, -1.5}) {
-    const std::vector<Model> bodies = {make_cylinder("strut", {0, 0, foot}, {0, 0, 0}, 0.1)};
+  for (const double base : {-1.0, -1.5}) {
+    const std::vector<Model> bodies = {make_cylinder("strut", {0, 0, base}, {0, 0, 0}, 0.1)};
     const FluidDomain fluid = cad::fluid_domain(tunnel(), bodies, {}, RunContext());
     expect_closed(fluid.model);
-    EXPECT_NEAR(fluid.report.volume, 16.0 - 0.01 * pi, 1e-4) << foot;
+    EXPECT_NEAR(fluid.report.volume, 16.0 - 0.01 * pi, 1e-4) << base;
     std::size_t n_holes = 0;
     for (const ModelFace& face : fluid.model.faces) n_holes += face.borders.size() - 1;
     EXPECT_EQ(n_holes, 1u);  // the base of the body is no face of the fluid; the floor has a hole
@@ -149,7 +149,7 @@ TEST(FluidDomain, BodiesThatDoNotBelongThereAreNamed) {
   const Error across = test::error_of(run(make_box("slab", {-0.1, -3, -3}, {0.1, 3, 3})));
   EXPECT_EQ(across.code(), ErrorCode::bad_argument);
   EXPECT_NE(std::string(across.what()).find("\"slab\" cuts the fluid in \"tunnel\" into 2 parts"), std::string::npos) << across.what();
-  EXPECT_EQ(across.n_places(), 2);
+  EXPECT_EQ(across.n_locations(), 2);
   const Error filled = test::error_of(run(make_box("rock", {-5, -5, -5}, {5, 5, 5})));
   EXPECT_EQ(filled.code(), ErrorCode::bad_argument);
   EXPECT_NE(std::string(filled.what()).find("\"rock\" fills the container"), std::string::npos) << filled.what();

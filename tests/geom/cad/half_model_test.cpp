@@ -28,9 +28,9 @@ double area_of(const Model& model) {
 
 /// Checks that free edges exist and lie exactly in the plane with their end points, and that all other points are on one side.
 void expect_half(const Model& model, std::size_t axis = 1, double at = 0.0) {
-  const std::vector<EdgeId> rim = free_edges(model);
-  EXPECT_FALSE(rim.empty());
-  for (const EdgeId e : rim) {
+  const std::vector<EdgeId> border = free_edges(model);
+  EXPECT_FALSE(border.empty());
+  for (const EdgeId e : border) {
     const ModelEdge& edge = model.edges[e];
     for (int i = 0; i <= 10; ++i) {
       const double y = edge.curve->point(edge.range.from + edge.range.length() * i / 10)[axis];
@@ -47,7 +47,7 @@ TEST(HalfModel, ABodyAcrossThePlaneIsCut) {
   expect_half(half.model);
   EXPECT_EQ(half.report.n_faces_cut, 2u);
   EXPECT_FALSE(half.report.was_half);
-  EXPECT_NEAR(half.report.rim_length, 2.0 * pi * 0.25, 5e-3);
+  EXPECT_NEAR(half.report.border_length, 2.0 * pi * 0.25, 5e-3);
   EXPECT_NEAR(area_of(half.model), pi * 0.0625 + 2.0 * pi * 0.25 * 2.0, 1e-5);
   for (const ModelFace& face : half.model.faces) EXPECT_EQ(face.name, "rod");
   const HalfModel other = cad::half_model(rod, {.keep = "-"}, RunContext());
@@ -103,7 +103,7 @@ TEST(HalfModel, WhatIsNoHalfIsRefusedWithPlaces) {
   Model open = cad::half_model(make_box("box", {0, -1, 0}, {1, 1, 1}), {}, RunContext()).model;
   const Error elsewhere = test::error_of([&] { cad::half_model(transformed(open, translation({0, 0.1, 0})), {}, RunContext()); });
   EXPECT_EQ(elsewhere.code(), ErrorCode::open_surface);
-  EXPECT_EQ(elsewhere.n_places(), 4);
+  EXPECT_EQ(elsewhere.n_locations(), 4);
   const Error across = test::error_of([&] { cad::half_model(transformed(open, translation({0, -0.1, 0})), {}, RunContext()); });
   EXPECT_EQ(across.code(), ErrorCode::open_surface);
 }

@@ -53,7 +53,7 @@ TEST(ReadCad, LooseIgesFacesBecomeASolid) {
   const CadFile file = read("ansys_bracket.iges");
   EXPECT_EQ(file.report.n_faces, 73u);
   EXPECT_TRUE(file.report.is_closed()) << to_text(file.report);
-  EXPECT_FALSE(file.report.mended.empty());
+  EXPECT_FALSE(file.report.repaired.empty());
   EXPECT_NEAR(file.report.unit, 0.0254, 1e-12);
   expect_consistent(file.model);
   EXPECT_GT(model_measures(file.model, RunContext()).total.volume, 0.0);

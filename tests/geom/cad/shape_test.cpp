@@ -18,7 +18,7 @@ constexpr double k_measured = 1e-7;
 TEST(CadShape, CylinderOfOwnSurfacesIsValidSolid) {
   const Model model = test::cylinder(k_radius, k_height);
   const auto shape = cad::shape_of(model, RunContext());
-  const std::vector<ErrorPlace> faults = cad::faults_of(*shape);
+  const std::vector<ErrorLocation> faults = cad::faults_of(*shape);
   EXPECT_TRUE(faults.empty()) << faults.front().what;
   const ModelMeasures data = model_measures(model, RunContext());
   constexpr double pi = std::numbers::pi;
@@ -84,7 +84,7 @@ TEST(CadShape, SurfaceWithoutExactFormIsNamedWithLocation) {
   } catch (const Error& error) {
     EXPECT_EQ(error.code(), ErrorCode::geometry_failed);
     EXPECT_NE(std::string(error.what()).find("\"can top\", bump"), std::string::npos) << error.what();
-    EXPECT_EQ(error.info().places.size(), 1u);
+    EXPECT_EQ(error.info().locations.size(), 1u);
   }
 }
 

@@ -17,7 +17,7 @@ namespace {
 CadFile read_small(const std::string& name, const ReadCadOptions& options = {}) { return io::read_cad(test::corpus() / "cad" / name, options, RunContext()); }
 
 std::size_t count(const CadReport& report, const std::string& what) {
-  return static_cast<std::size_t>(std::count_if(report.mended.begin(), report.mended.end(), [&](const CadMend& mend) { return mend.what == what; }));
+  return static_cast<std::size_t>(std::count_if(report.repaired.begin(), report.repaired.end(), [&](const CadRepair& repair) { return repair.what == what; }));
 }
 
 double volume(const CadFile& file) { return model_measures(file.model, RunContext()).total.volume; }
@@ -34,7 +34,7 @@ TEST(SmallCadCases, AGapIsSewn) {
   const CadFile open = read_small("box_gap.brep", options);
   EXPECT_FALSE(open.report.is_closed());
   ASSERT_EQ(open.report.free_edges.size(), 8u);
-  for (const CadFreeEdge& edge : open.report.free_edges) EXPECT_NEAR(edge.place.x, 0.0, 5e-6);
+  for (const CadFreeEdge& edge : open.report.free_edges) EXPECT_NEAR(edge.location.x, 0.0, 5e-6);
 }
 
 TEST(SmallCadCases, ADoubledFaceGoes) {
@@ -60,7 +60,7 @@ TEST(SmallCadCases, AnOpeningIsToldAndCapped) {
   EXPECT_TRUE(opening.is_loop && opening.is_flat);
   EXPECT_EQ(opening.edges.size(), 4u);
   EXPECT_NEAR(opening.length, 6.0, 1e-9);
-  EXPECT_NEAR(distance(opening.place, {1.0, 0.5, 0.5}), 0.0, 1e-9);
+  EXPECT_NEAR(distance(opening.location, {1.0, 0.5, 0.5}), 0.0, 1e-9);
   EXPECT_NEAR(std::abs(opening.normal.z), 1.0, 1e-9);
   EXPECT_THAT(to_text(open.report), testing::HasSubstr("`cap = true` closes it"));
 
@@ -81,7 +81,7 @@ TEST(SmallCadCases, EdgesThatShareTheirEndsAreOne) {
   ASSERT_EQ(file.report.openings.size(), 1u);
   EXPECT_TRUE(file.report.openings.front().is_loop);
   EXPECT_FALSE(file.report.openings.front().is_flat);
-  EXPECT_GT(file.report.mended.front().value, 0.003);  // the gap width is reported
+  EXPECT_GT(file.report.repaired.front().value, 0.003);  // the gap width is reported
 }
 
 TEST(SmallCadCases, MillimetresBecomeMetres) {

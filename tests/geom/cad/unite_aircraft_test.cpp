@@ -45,7 +45,7 @@ TEST(SplitSolids, LooseFacesAreRefusedWithTheirPlace) {
     FAIL();
   } catch (const Error& error) {
     EXPECT_EQ(error.code(), ErrorCode::open_surface);
-    EXPECT_EQ(error.n_places(), 3);
+    EXPECT_EQ(error.n_locations(), 3);
     EXPECT_NE(std::string(error.what()).find("\"open side\""), std::string::npos) << error.what();
   }
 }

@@ -11,7 +11,7 @@
 #include "geom/base/error.h"
 #include "geom/delaunay/check_triangulation.h"
 #include "geom/delaunay/insertion_order.h"
-#include "tests/support/constants.h"
+#include "tests/support/test_constants.h"
 
 namespace sterna::delaunay {
 namespace {
@@ -191,8 +191,8 @@ TEST(Planar, CrossingSegmentsAreAnErrorWithThePlace) {
     FAIL() << "no error";
   } catch (const Error& error) {
     EXPECT_EQ(error.code(), ErrorCode::self_intersection);
-    ASSERT_EQ(error.info().places.size(), 1u);
-    EXPECT_NEAR(distance(error.info().places[0].position, {1, 1, 0}), 0.0, 1e-15);
+    ASSERT_EQ(error.info().locations.size(), 1u);
+    EXPECT_NEAR(distance(error.info().locations[0].position, {1, 1, 0}), 0.0, 1e-15);
     EXPECT_THAT(error.what(), testing::HasSubstr("two segments cross"));
   }
 }

@@ -9,10 +9,10 @@
 
 #include "geom/base/error.h"
 #include "geom/delaunay/check_triangulation.h"
-#include "geom/delaunay/refine.h"
+#include "geom/delaunay/refinement_queue.h"
 #include "geom/delaunay/renumber.h"
 #include "geom/math/measures.h"
-#include "tests/support/constants.h"
+#include "tests/support/test_constants.h"
 
 namespace sterna::delaunay {
 namespace {
@@ -171,10 +171,10 @@ TEST(SurfaceTriangulation, RenumberingKeepsTheTriangles) {
 
 TEST(SurfaceTriangulation, CoincidentBordersAreAnError) {
   SurfaceBorder border;
-  const std::vector<Uv> places{{0, 0}, {4, 0}, {4, 4}, {0, 4}, {1, 0}, {2, 0}, {2, 1}, {1, 1}};
-  for (std::size_t i = 0; i < places.size(); ++i) {
-    border.uv.push_back(places[i]);
-    border.samples.push_back({{places[i].u, places[i].v, 5.0}, {}});
+  const std::vector<Uv> locations{{0, 0}, {4, 0}, {4, 4}, {0, 4}, {1, 0}, {2, 0}, {2, 1}, {1, 1}};
+  for (std::size_t i = 0; i < locations.size(); ++i) {
+    border.uv.push_back(locations[i]);
+    border.samples.push_back({{locations[i].u, locations[i].v, 5.0}, {}});
     border.stands_for.push_back(VertexId(static_cast<std::uint64_t>(i)));
   }
   border.loops = {{0, 1, 2, 3}, {4, 5, 6, 7}};
@@ -183,8 +183,8 @@ TEST(SurfaceTriangulation, CoincidentBordersAreAnError) {
     FAIL() << "no error";
   } catch (const Error& error) {
     EXPECT_EQ(error.code(), ErrorCode::self_intersection);
-    ASSERT_FALSE(error.info().places.empty());
-    EXPECT_EQ(error.info().places[0].position.z, 5.0);
+    ASSERT_FALSE(error.info().locations.empty());
+    EXPECT_EQ(error.info().locations[0].position.z, 5.0);
   }
 }
 

@@ -15,9 +15,9 @@
 #include "geom/draw/scene.h"
 #include "geom/mesh/body_patches.h"
 #include "geom/mesh/surface_fields.h"
-#include "tests/support/constants.h"
 #include "tests/support/hybrid_shapes.h"
-#include "tests/support/shapes.h"
+#include "tests/support/test_constants.h"
+#include "tests/support/test_shapes.h"
 
 namespace sterna {
 namespace {

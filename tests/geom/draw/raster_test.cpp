@@ -1,6 +1,6 @@
 // The z-buffer: covered pixels, occluded polygons, positions of lines.
 #include "geom/draw/raster.h"
-#include "tests/support/constants.h"
+#include "tests/support/test_constants.h"
 
 #include <gtest/gtest.h>
 
@@ -33,8 +33,9 @@ TEST(Raster, TrianglesThatShareEdgesCoverEveryPixelOnce) {
   for (int round = 0; round < 50; ++round) {
     const double x = round % 2 == 0 ? 16.5 : number(random), y = round % 2 == 0 ? -16.5 : -number(random);
     Polygons polygons;
-    const std::vector<Point> rim = {{0, 0, 0}, {16.5, 0, 0}, {32, 0, 0}, {32, -16.5, 0}, {32, -32, 0}, {10.0 / 3.0, -32, 0}, {0, -32, 0}, {0, -10.0 / 3.0, 0}};
-    for (std::size_t k = 0; k < rim.size(); ++k) add(polygons, {{x, y, 0}, rim[k], rim[(k + 1) % rim.size()]}, k_red);
+    const std::vector<Point> border = {{0, 0, 0},    {16.5, 0, 0},         {32, 0, 0},  {32, -16.5, 0},
+                                       {32, -32, 0}, {10.0 / 3.0, -32, 0}, {0, -32, 0}, {0, -10.0 / 3.0, 0}};
+    for (std::size_t k = 0; k < border.size(); ++k) add(polygons, {{x, y, 0}, border[k], border[(k + 1) % border.size()]}, k_red);
     const Image image = rasterise(polygons, from_above(), {32, 32, false}, k_context);
     for (const Rgb& pixel : image.pixels) ASSERT_EQ(pixel, k_red) << round;
   }

@@ -9,7 +9,7 @@
 #include <random>
 
 #include "geom/base/error.h"
-#include "tests/support/shapes.h"
+#include "tests/support/test_shapes.h"
 
 namespace sterna {
 namespace {

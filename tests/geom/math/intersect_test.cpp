@@ -11,7 +11,7 @@
 #include "geom/base/error.h"
 #include "geom/math/predicates.h"
 #include "tests/geom/math/exact_reference.h"
-#include "tests/support/shapes.h"
+#include "tests/support/test_shapes.h"
 
 namespace sterna {
 namespace {

@@ -3,10 +3,10 @@
 
 #include <gtest/gtest.h>
 
-#include "geom/mesh/cut_places.h"
-#include "tests/support/constants.h"
+#include "geom/mesh/cut_locations.h"
 #include "tests/support/hybrid_shapes.h"
-#include "tests/support/shapes.h"
+#include "tests/support/test_constants.h"
+#include "tests/support/test_shapes.h"
 
 namespace sterna {
 namespace {
@@ -78,11 +78,11 @@ TEST(BodyPatches, SurfaceIsNoWallAroundItself) {
 }
 
 TEST(BodyPatches, ViewLocationsAreOnBodyNotOnTunnel) {
-  const std::vector<CutPlace> places = automatic_cuts(tunnel_with_cube({0.5, 0.25, 0}), test::k_context);
-  ASSERT_FALSE(places.empty());
-  for (const CutPlace& place : places) {
-    EXPECT_LT(place.radius, 2.0) << place.name;
-    EXPECT_LT(distance(place.focus, Point{1, 0.75, 0.5}), 1.0) << place.name;
+  const std::vector<CutLocation> locations = automatic_cuts(tunnel_with_cube({0.5, 0.25, 0}), test::k_context);
+  ASSERT_FALSE(locations.empty());
+  for (const CutLocation& location : locations) {
+    EXPECT_LT(location.radius, 2.0) << location.name;
+    EXPECT_LT(distance(location.focus, Point{1, 0.75, 0.5}), 1.0) << location.name;
   }
 }
 

@@ -5,9 +5,9 @@
 #include <numbers>
 
 #include "geom/mesh/check.h"
-#include "tests/support/constants.h"
 #include "tests/support/hybrid_shapes.h"
-#include "tests/support/shapes.h"
+#include "tests/support/test_constants.h"
+#include "tests/support/test_shapes.h"
 
 namespace sterna {
 namespace {
@@ -101,10 +101,10 @@ TEST(CellCentred, TheWorstFaceIsWhereItIs) {
                                      }()},
                                 RunContext({.threads = 2}))
                               .gate(Measure::non_orthogonality);
-  ASSERT_FALSE(gate.places.empty());
+  ASSERT_FALSE(gate.locations.empty());
   EXPECT_EQ(gate.state, GateState::fail);
-  EXPECT_LT(distance(gate.places.front().position, {0.42, 0.42, 0.42}), 0.35);
-  EXPECT_NE(gate.places.front().what.find("hexahedron"), std::string::npos) << gate.places.front().what;
+  EXPECT_LT(distance(gate.locations.front().position, {0.42, 0.42, 0.42}), 0.35);
+  EXPECT_NE(gate.locations.front().what.find("hexahedron"), std::string::npos) << gate.locations.front().what;
 }
 
 TEST(CellCentred, CanBeLeftOut) {

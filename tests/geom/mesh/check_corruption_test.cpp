@@ -22,10 +22,10 @@ HybridMesh base_cells() { return explicit_cells(base_mesh()); }
 /// Largest distance of a finding from the centre of the corrupted prism: the faces and neighbours of a cell of size 0.3.
 constexpr double k_near = 0.4;
 
-void expect_found(const CheckReport& report, Violation violation, std::int64_t count, const Point& place) {
+void expect_found(const CheckReport& report, Violation violation, std::int64_t count, const Point& location) {
   EXPECT_FALSE(report.is_valid());
   EXPECT_EQ(report.count(violation), count) << to_string(violation) << "\n" << to_text(report);
-  EXPECT_LT(distance_to_first(report, violation, place), k_near) << to_string(violation) << "\n" << to_text(report);
+  EXPECT_LT(distance_to_first(report, violation, location), k_near) << to_string(violation) << "\n" << to_text(report);
 }
 
 void expect_only(const CheckReport& report, const std::vector<Violation>& violations) {
@@ -35,11 +35,11 @@ void expect_only(const CheckReport& report, const std::vector<Violation>& violat
 
 TEST(CheckCorruption, RemovedFirstLayerCell) {
   HybridMesh mesh = base_cells();
-  const Point place = middle_of(mesh, mesh.prisms[k_prism]);
+  const Point location = middle_of(mesh, mesh.prisms[k_prism]);
   mesh.prisms.erase(mesh.prisms.begin() + k_prism);
   const CheckReport report = checked(mesh);
-  expect_found(report, Violation::unmatched_face, 4, place);
-  expect_found(report, Violation::stray_boundary_face, 1, place);
+  expect_found(report, Violation::unmatched_face, 4, location);
+  expect_found(report, Violation::stray_boundary_face, 1, location);
   EXPECT_EQ(report.count(Violation::volume_mismatch), 1);
   expect_only(report, {Violation::unmatched_face, Violation::stray_boundary_face, Violation::volume_mismatch});
 }
@@ -47,20 +47,20 @@ TEST(CheckCorruption, RemovedFirstLayerCell) {
 TEST(CheckCorruption, InvertedFirstLayerCell) {
   HybridMesh mesh = base_cells();
   auto& prism = mesh.prisms[k_prism];
-  const Point place = middle_of(mesh, prism);
+  const Point location = middle_of(mesh, prism);
   for (std::size_t k = 0; k < 3; ++k) std::swap(prism[k], prism[k + 3]);
   const CheckReport report = checked(mesh);
-  expect_found(report, Violation::invalid_cell, 1, place);
-  expect_found(report, Violation::same_sense_face, 5, place);
+  expect_found(report, Violation::invalid_cell, 1, location);
+  expect_found(report, Violation::same_sense_face, 5, location);
   EXPECT_NE(to_text(report).find("prism " + std::to_string(k_prism) + ", near patch sphere is inverted"), std::string::npos) << to_text(report);
 }
 
 TEST(CheckCorruption, DuplicatedFirstLayerCell) {
   HybridMesh mesh = base_cells();
-  const Point place = middle_of(mesh, mesh.prisms[k_prism]);
+  const Point location = middle_of(mesh, mesh.prisms[k_prism]);
   mesh.prisms.push_back(mesh.prisms[k_prism]);
   const CheckReport report = checked(mesh);
-  expect_found(report, Violation::overmatched_face, 5, place);
+  expect_found(report, Violation::overmatched_face, 5, location);
   EXPECT_EQ(report.count(Violation::invalid_cell), 0);
   EXPECT_EQ(report.count(Violation::volume_mismatch), 1);
 }
@@ -68,7 +68,7 @@ TEST(CheckCorruption, DuplicatedFirstLayerCell) {
 TEST(CheckCorruption, TheSameForEachTetrahedron) {
   const HybridMesh mesh = base_mesh();
   for (const std::size_t t : {std::size_t{0}, mesh.tetrahedra.size() / 2, mesh.tetrahedra.size() - 1}) {
-    const Point place = middle_of(mesh, mesh.tetrahedra[t]);
+    const Point location = middle_of(mesh, mesh.tetrahedra[t]);
     HybridMesh removed = mesh, inverted = mesh, doubled = mesh;
     removed.tetrahedra.erase(removed.tetrahedra.begin() + static_cast<std::ptrdiff_t>(t));
     const CheckReport without = checked(removed);
@@ -77,7 +77,7 @@ TEST(CheckCorruption, TheSameForEachTetrahedron) {
     const CheckReport turned = checked(inverted);
     EXPECT_EQ(turned.count(Violation::invalid_cell), 1);
     EXPECT_EQ(turned.count(Violation::same_sense_face), 4);
-    EXPECT_LT(distance_to_first(turned, Violation::invalid_cell, place), 1e-12);
+    EXPECT_LT(distance_to_first(turned, Violation::invalid_cell, location), 1e-12);
     doubled.tetrahedra.push_back(doubled.tetrahedra[t]);
     EXPECT_EQ(checked(doubled).count(Violation::overmatched_face), 4);
   }
@@ -86,10 +86,10 @@ TEST(CheckCorruption, TheSameForEachTetrahedron) {
 TEST(CheckCorruption, FlippedMarker) {
   for (HybridMesh mesh : {base_mesh(), base_cells()}) {
     auto& marker = mesh.boundary_triangles[2 * k_column];
-    const Point place = middle_of(mesh, marker.nodes);
+    const Point location = middle_of(mesh, marker.nodes);
     std::swap(marker.nodes[0], marker.nodes[1]);
     const CheckReport report = checked(mesh);
-    expect_found(report, Violation::same_sense_face, 1, place);
+    expect_found(report, Violation::same_sense_face, 1, location);
     EXPECT_EQ(report.counts.size(), 1u) << to_text(report);
     EXPECT_NE(report.findings[0].what.find("boundary triangle 80, patch sphere points into its cell, prism 120"), std::string::npos) << report.findings[0].what;
   }
@@ -98,12 +98,12 @@ TEST(CheckCorruption, FlippedMarker) {
 TEST(CheckCorruption, MarkerInTwoPatches) {
   for (HybridMesh mesh : {base_mesh(), base_cells()}) {
     BoundaryTriangle marker = mesh.boundary_triangles[2 * k_column];
-    const Point place = middle_of(mesh, marker.nodes);
+    const Point location = middle_of(mesh, marker.nodes);
     marker.patch = PatchId(1);
     std::rotate(marker.nodes.begin(), marker.nodes.begin() + 1, marker.nodes.end());
     mesh.boundary_triangles.push_back(marker);
     const CheckReport report = checked(mesh);
-    expect_found(report, Violation::duplicate_marker, 1, place);
+    expect_found(report, Violation::duplicate_marker, 1, location);
     EXPECT_EQ(report.counts.size(), 1u) << to_text(report);
     EXPECT_NE(report.findings[0].what.find("patch farfield marks the face of boundary triangle 80, patch sphere again"), std::string::npos)
         << report.findings[0].what;
@@ -112,15 +112,15 @@ TEST(CheckCorruption, MarkerInTwoPatches) {
 
 TEST(CheckCorruption, MissingAndStrayMarker) {
   for (HybridMesh mesh : {base_mesh(), base_cells()}) {
-    const Point place = middle_of(mesh, mesh.boundary_triangles[2 * k_column].nodes);
+    const Point location = middle_of(mesh, mesh.boundary_triangles[2 * k_column].nodes);
     HybridMesh missing = mesh;
     missing.boundary_triangles.erase(missing.boundary_triangles.begin() + 2 * k_column);
-    expect_found(checked(missing), Violation::unmatched_face, 1, place);
+    expect_found(checked(missing), Violation::unmatched_face, 1, location);
     auto& nodes = mesh.boundary_triangles[2 * k_column].nodes;
     nodes[2] = NodeId(nodes[2].value() + 1);  // the next node of its growth line
     const CheckReport report = checked(mesh);
-    expect_found(report, Violation::unmatched_face, 1, place);
-    expect_found(report, Violation::stray_boundary_face, 1, place);
+    expect_found(report, Violation::unmatched_face, 1, location);
+    expect_found(report, Violation::stray_boundary_face, 1, location);
   }
 }
 
@@ -143,14 +143,14 @@ TEST(CheckCorruption, FoldedEnvelopeTriangle) {
     const auto top = [&](std::size_t k) -> Point& { return mesh.points[columns.layers.node(lines[k], k_layers)]; };
     // The top node moves over the opposite edge, into the neighbour.
     top(0) = 0.5 * (top(1) + top(2)) + 0.7 * (0.5 * (top(1) + top(2)) - top(0));
-    const Point place = top(0);
+    const Point location = top(0);
     const CheckReport report = checked(mesh);
     EXPECT_GT(report.count(Violation::envelope_intersection), 0) << to_text(report);
     EXPECT_GT(report.count(Violation::invalid_cell), 0);
     EXPECT_EQ(report.count(Violation::unmatched_face), 0);
     EXPECT_EQ(report.count(Violation::volume_mismatch), 0) << to_text(report);  // signed volumes still agree
-    EXPECT_LT(distance_to_first(report, Violation::envelope_intersection, place), 2 * k_near);
-    EXPECT_LT(distance_to_first(report, Violation::invalid_cell, place), 2 * k_near);
+    EXPECT_LT(distance_to_first(report, Violation::envelope_intersection, location), 2 * k_near);
+    EXPECT_LT(distance_to_first(report, Violation::invalid_cell, location), 2 * k_near);
   }
 }
 
@@ -159,12 +159,12 @@ TEST(CheckCorruption, MovedNodeInvertsPrisms) {
     const HybridMesh columns = base_mesh();
     const std::uint32_t line = columns.layers.base[k_column][1];
     const NodeId node = columns.layers.node(line, 1);
-    const Point place = mesh.points[node];
+    const Point location = mesh.points[node];
     mesh.points[node] = 0.99 * mesh.points[columns.layers.node(line, 0)];  // into the wall
     const CheckReport report = checked(mesh);
     const std::int64_t n_around =
         std::count_if(columns.layers.base.begin(), columns.layers.base.end(), [&](const auto& b) { return std::count(b.begin(), b.end(), line) > 0; });
-    expect_found(report, Violation::invalid_cell, n_around, place);
+    expect_found(report, Violation::invalid_cell, n_around, location);
     expect_only(report, {Violation::invalid_cell, Violation::negative_sub_volume});
   }
 }
@@ -270,11 +270,11 @@ TEST(CheckCorruption, RepeatedNodesPatchesAndPointsOutOfRange) {
 
 TEST(CheckCorruption, BrokenLine) {
   HybridMesh mesh = base_mesh();
-  const Point place = mesh.points[NodeId(mesh.layers.first_node[11])];
+  const Point location = mesh.points[NodeId(mesh.layers.first_node[11])];
   mesh.layers.first_node[11] -= 1;  // starts at the last node of growth line 10
   const CheckReport report = checked(mesh);
   EXPECT_EQ(report.count(Violation::broken_line), 1) << to_text(report);
-  EXPECT_LT(distance_to_first(report, Violation::broken_line, place), 2 * k_near);
+  EXPECT_LT(distance_to_first(report, Violation::broken_line, location), 2 * k_near);
   EXPECT_GT(report.count(Violation::unmatched_face), 0);
 }
 
@@ -294,11 +294,11 @@ TEST(CheckCorruption, RemovedReversedAndDoubledColumnsGetCellVerdict) {
     for (const std::vector<std::uint32_t>& collapsed : {std::vector<std::uint32_t>{}, {base_mesh().layers.base[k_column][0]}}) {
       HybridMesh mesh = sphere_shell(4, {.n_layers = k_layers, .collapsed = collapsed});
       const Cell cell = mesh.layers.cell(k_column, 0);
-      const Point place = middle_of(mesh, cell.span());
+      const Point location = middle_of(mesh, cell.span());
       corruptions[i](mesh.layers);
       const CheckReport columns = checked(mesh);
       EXPECT_GT(columns.count(expected[i]), 0) << to_text(columns);
-      EXPECT_LT(distance_to_first(columns, expected[i], place), k_near);
+      EXPECT_LT(distance_to_first(columns, expected[i], location), k_near);
       EXPECT_EQ(kinds(columns), kinds(checked(explicit_cells(mesh))));
     }
   }
@@ -321,26 +321,26 @@ TEST(CheckCorruption, AQuadIsNotTwoTriangles) {
   for (HybridMesh mesh : {plate_block(3), explicit_cells(plate_block(3))}) {
     const BoundaryQuad quad = mesh.boundary_quads.back();
     const auto& n = quad.nodes;
-    const Point place = middle_of(mesh, n);
+    const Point location = middle_of(mesh, n);
     HybridMesh split = mesh;
     split.boundary_quads.pop_back();
     split.boundary_triangles.push_back({{n[0], n[1], n[2]}, quad.patch});
     split.boundary_triangles.push_back({{n[0], n[2], n[3]}, quad.patch});
     const CheckReport report = checked(split);
-    expect_found(report, Violation::unmatched_face, 1, place);
-    expect_found(report, Violation::stray_boundary_face, 2, place);
+    expect_found(report, Violation::unmatched_face, 1, location);
+    expect_found(report, Violation::stray_boundary_face, 2, location);
 
     HybridMesh twisted = mesh;  // the same four nodes in another cyclic order
     std::swap(twisted.boundary_quads.back().nodes[1], twisted.boundary_quads.back().nodes[2]);
     const CheckReport bow = checked(twisted);
-    expect_found(bow, Violation::unmatched_face, 1, place);
-    expect_found(bow, Violation::stray_boundary_face, 1, place);
+    expect_found(bow, Violation::unmatched_face, 1, location);
+    expect_found(bow, Violation::stray_boundary_face, 1, location);
 
     HybridMesh turned = mesh;  // the same cyclic order from another corner is the same face
     std::rotate(turned.boundary_quads.back().nodes.begin(), turned.boundary_quads.back().nodes.begin() + 3, turned.boundary_quads.back().nodes.end());
     EXPECT_TRUE(checked(turned).is_valid());
     std::reverse(turned.boundary_quads.back().nodes.begin(), turned.boundary_quads.back().nodes.end());
-    expect_found(checked(turned), Violation::same_sense_face, 1, place);
+    expect_found(checked(turned), Violation::same_sense_face, 1, location);
   }
 }
 

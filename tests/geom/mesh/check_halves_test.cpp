@@ -13,9 +13,9 @@ using namespace test;
 
 std::vector<HybridMesh> halves() {
   std::vector<HybridMesh> meshes;
-  for (const bool has_collapsed_rim : {false, true}) {
-    meshes.push_back(half_sphere_shell(5, {.shell = {.n_layers = 6}, .has_collapsed_rim = has_collapsed_rim}));
-    meshes.push_back(half_shell_of_all_kinds(6, {.shell = {.n_layers = 3}, .has_collapsed_rim = has_collapsed_rim}));
+  for (const bool has_collapsed_border : {false, true}) {
+    meshes.push_back(half_sphere_shell(5, {.shell = {.n_layers = 6}, .has_collapsed_border = has_collapsed_border}));
+    meshes.push_back(half_shell_of_all_kinds(6, {.shell = {.n_layers = 3}, .has_collapsed_border = has_collapsed_border}));
     meshes.push_back(turned(meshes.back(), {10.0, -20.0, 5.0}));
   }
   return meshes;
@@ -65,7 +65,7 @@ TEST(CheckHalves, WhatIsCheckedAheadChangesNothing) {
 
 /// Each fault of one boundary quad of the layer is found, identically in both forms.
 TEST(CheckHalves, FaultsOfQuadsAreFoundInBothForms) {
-  const HybridMesh good = half_shell_of_all_kinds(5, {.shell = {.n_layers = 4}, .has_collapsed_rim = true});
+  const HybridMesh good = half_shell_of_all_kinds(5, {.shell = {.n_layers = 4}, .has_collapsed_border = true});
   const auto expect = [&](Violation violation, std::int64_t n, const char* what, const auto& damage) {
     SCOPED_TRACE(what);
     HybridMesh mesh = good;

@@ -23,10 +23,10 @@ inline void move_points(HybridMesh& mesh, double scale, const Vec3& offset) {
   for (Point& p : mesh.points) p = scale * p + offset;
 }
 
-inline double distance_to_first(const CheckReport& report, Violation violation, const Point& place) {
+inline double distance_to_first(const CheckReport& report, Violation violation, const Point& location) {
   double nearest = std::numeric_limits<double>::infinity();
   for (const CheckFinding& finding : report.findings)
-    if (finding.violation == violation) nearest = std::min(nearest, distance(finding.position, place));
+    if (finding.violation == violation) nearest = std::min(nearest, distance(finding.position, location));
   return nearest;
 }
 

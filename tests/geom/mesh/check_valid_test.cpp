@@ -6,7 +6,7 @@
 
 #include "geom/mesh/check.h"
 #include "tests/geom/mesh/check_support.h"
-#include "tests/support/shapes.h"
+#include "tests/support/test_shapes.h"
 
 namespace sterna {
 namespace {

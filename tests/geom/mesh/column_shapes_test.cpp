@@ -23,12 +23,12 @@ HybridMesh shaken_shell(int n_layers) {
   return mesh;
 }
 
-std::vector<Place> places_of(const HybridMesh& mesh, std::size_t column) {
-  std::vector<Place> places(static_cast<std::size_t>(mesh.layers.n_layers) + lanes::k_width);
+std::vector<CellCentre> locations_of(const HybridMesh& mesh, std::size_t column) {
+  std::vector<CellCentre> locations(static_cast<std::size_t>(mesh.layers.n_layers) + lanes::k_width);
   ColumnShapes shapes(mesh);
   shapes.read(column);
-  shapes.places(places.data());
-  return places;
+  shapes.locations(locations.data());
+  return locations;
 }
 
 void expect_same(const InnerFace& a, const InnerFace& b) {
@@ -47,7 +47,7 @@ TEST(ColumnShapes, AreThoseOfEachCell) {
     for (std::size_t column = 0; column < mesh.layers.n_columns(); ++column) {
       shapes.read(column);
       const std::span<const CellShape> cells = shapes.cells();
-      const std::vector<Place> places = places_of(mesh, column);
+      const std::vector<CellCentre> locations = locations_of(mesh, column);
       ASSERT_EQ(cells.size(), static_cast<std::size_t>(n_layers));
       for (int j = 0; j < n_layers; ++j) {
         const CellShape expected = cell_shape(mesh, mesh.layers.cell(column, j)), &cell = cells[static_cast<std::size_t>(j)];
@@ -56,8 +56,8 @@ TEST(ColumnShapes, AreThoseOfEachCell) {
         EXPECT_EQ(cell.aspect_ratio, expected.aspect_ratio);
         EXPECT_EQ(cell.openness, expected.openness);
         EXPECT_EQ(cell.determinant, expected.determinant);
-        EXPECT_EQ(places[static_cast<std::size_t>(j)].centre, expected.centre);
-        EXPECT_EQ(places[static_cast<std::size_t>(j)].volume, expected.volume);
+        EXPECT_EQ(locations[static_cast<std::size_t>(j)].centre, expected.centre);
+        EXPECT_EQ(locations[static_cast<std::size_t>(j)].volume, expected.volume);
       }
     }
   }
@@ -72,7 +72,7 @@ TEST(ColumnShapes, FacesAreThoseOfEachFace) {
   find_open_sides(layers, context, &neighbours);
   ColumnShapes shapes(mesh);
   for (std::size_t column = 0; column < layers.n_columns(); ++column) {
-    const std::vector<Place> own = places_of(mesh, column);
+    const std::vector<CellCentre> own = locations_of(mesh, column);
     const auto& base = layers.base[column];
     const auto point = [&](std::size_t k, std::size_t j) { return mesh.points[layers.node(base[k % 3], static_cast<int>(j))]; };
     shapes.read(column);
@@ -81,7 +81,7 @@ TEST(ColumnShapes, FacesAreThoseOfEachFace) {
     for (std::size_t j = 0; j < tops.size(); ++j)
       expect_same(tops[j], inner_face(std::array<Point, 3>{point(0, j + 1), point(1, j + 1), point(2, j + 1)}, own[j], own[j + 1]));
     for (std::size_t k = 0; k < 3; ++k) {
-      const std::vector<Place> other = places_of(mesh, neighbours[3 * column + k]);
+      const std::vector<CellCentre> other = locations_of(mesh, neighbours[3 * column + k]);
       const std::span<const InnerFace> sides = shapes.side(k, own.data(), other.data());
       ASSERT_EQ(sides.size(), 6u);
       for (std::size_t j = 0; j < sides.size(); ++j)
@@ -99,11 +99,11 @@ TEST(ColumnShapes, FoldedPrismsAreMeasuredAlike) {
   ColumnShapes shapes(mesh);
   double worst = 1.0;
   for (std::size_t column = 0; column < mesh.layers.n_columns(); ++column) {
-    const std::vector<Place> own = places_of(mesh, column);
+    const std::vector<CellCentre> own = locations_of(mesh, column);
     shapes.read(column);
     const auto& base = mesh.layers.base[column];
     for (std::size_t k = 0; k < 3; ++k) {
-      const std::vector<Place> other = places_of(mesh, neighbours[3 * column + k]);
+      const std::vector<CellCentre> other = locations_of(mesh, neighbours[3 * column + k]);
       const std::span<const InnerFace> sides = shapes.side(k, own.data(), other.data());
       for (int j = 0; j < 5; ++j) {
         const auto point = [&](std::size_t c, int level) { return mesh.points[mesh.layers.node(base[c % 3], level)]; };

@@ -6,7 +6,7 @@
 #include <nlohmann/json.hpp>
 
 #include "geom/mesh/half.h"
-#include "tests/support/shapes.h"
+#include "tests/support/test_shapes.h"
 
 namespace sterna {
 namespace {

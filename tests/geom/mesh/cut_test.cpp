@@ -10,8 +10,8 @@
 
 #include "geom/base/error.h"
 #include "geom/math/measures.h"
-#include "tests/support/constants.h"
 #include "tests/support/hybrid_shapes.h"
+#include "tests/support/test_constants.h"
 
 namespace sterna {
 namespace {

@@ -12,8 +12,8 @@
 #include "surfmesh/stitch/stitch_surface.h"
 #include "tests/geom/mesh/check_support.h"
 #include "tests/geom/mesh/naive_dual.h"
-#include "tests/support/constants.h"
 #include "tests/support/data.h"
+#include "tests/support/test_constants.h"
 #include "volmesh/volume_mesh.h"
 
 namespace sterna {

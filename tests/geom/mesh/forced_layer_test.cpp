@@ -8,7 +8,7 @@
 #include "geom/mesh/check_parts.h"
 #include "geom/mesh/forced_layer.h"
 #include "tests/geom/mesh/check_support.h"
-#include "tests/support/constants.h"
+#include "tests/support/test_constants.h"
 
 namespace sterna {
 namespace {
@@ -29,7 +29,7 @@ std::vector<ColumnSide> inner_sides(const HybridMesh& mesh) {
 
 int n_of_sides(const GateResult& gate) {
   int n = 0;
-  for (const GatePlace& place : gate.places) n += place.what.starts_with("side of") ? 1 : 0;
+  for (const GateLocation& location : gate.locations) n += location.what.starts_with("side of") ? 1 : 0;
   return n;
 }
 
@@ -66,10 +66,10 @@ TEST(ForcedLayer, WeightsAndVolumesOfUnequalWallTriangles) {
 }
 
 /// Returns a plate with 4 layers that grow by 1.25, whose request permits the given growth.
-HybridMesh low_plate(double asked_growth) {
+HybridMesh low_plate(double requested_growth) {
   HybridMesh mesh = plate_block(4, {.n_layers = 4, .layer_height = 0.01, .ratio = 1.25, .outer_height = 0.2});
   mesh.request.first_height = 0.01 / 5.765625;
-  mesh.request.max_growth = asked_growth;
+  mesh.request.max_growth = requested_growth;
   mesh.request.target_height.assign(mesh.layers.n_lines(), 0.01);
   mesh.request.reason.assign(mesh.layers.n_lines(), 0);
   mesh.request.reasons = {"none"};
@@ -77,11 +77,11 @@ HybridMesh low_plate(double asked_growth) {
 }
 
 TEST(ForcedLayer, LastHeightsThatTheRequestKeepsLow) {
-  const GateResult asked = checked(low_plate(1.25)).gate(Measure::interface_height);
-  EXPECT_GT(asked.n_beyond_hard, 0);
-  EXPECT_EQ(asked.n_forced, asked.n_beyond_hard) << to_text(asked);
-  EXPECT_FALSE(asked.is_hard_missed);
-  EXPECT_NE(asked.forced.front().forcing.remedy.find("more layers"), std::string::npos);
+  const GateResult requested = checked(low_plate(1.25)).gate(Measure::interface_height);
+  EXPECT_GT(requested.n_beyond_hard, 0);
+  EXPECT_EQ(requested.n_forced, requested.n_beyond_hard) << to_text(requested);
+  EXPECT_FALSE(requested.is_hard_missed);
+  EXPECT_NE(requested.forced.front().forcing.remedy.find("more layers"), std::string::npos);
   // With this growth ratio the last cell could have been 30 times as high.
   const GateResult ours = checked(low_plate(3.0)).gate(Measure::interface_height);
   EXPECT_EQ(ours.n_forced, 0);
@@ -164,14 +164,14 @@ TEST(ForcedLayer, SkewnessThatTheBareEdgeHas) {
   EXPECT_GT(gate.n_beyond_hard, 0);
   EXPECT_EQ(gate.n_forced, gate.n_beyond_hard) << to_text(gate);
   // Skewness beyond the edge's bound is caused by the layer; blunt edges, and triangles that are not opposite each other, force no skewness.
-  const auto n_told = [&](const HybridMesh& mesh, double measured) {
+  const auto n_reported = [&](const HybridMesh& mesh, double measured) {
     const GivenLayer given(mesh);
     return std::ranges::count_if(inner_sides(mesh), [&](const ColumnSide& side) { return given.skewness_of_edge(side, hard, measured).has_value(); });
   };
-  EXPECT_EQ(n_told(thin, value), 4 * 3 * 2);  // edges, layers, columns
-  EXPECT_EQ(n_told(thin, 1.2 * value), 0);
-  EXPECT_EQ(n_told(sharp_edge({.half_angle = 8 * k_degree}), hard), 0);
-  EXPECT_EQ(n_told(sharp_edge({.half_angle = 3 * k_degree, .lower_shift = 0.4}), hard), 0);
+  EXPECT_EQ(n_reported(thin, value), 4 * 3 * 2);  // edges, layers, columns
+  EXPECT_EQ(n_reported(thin, 1.2 * value), 0);
+  EXPECT_EQ(n_reported(sharp_edge({.half_angle = 8 * k_degree}), hard), 0);
+  EXPECT_EQ(n_reported(sharp_edge({.half_angle = 3 * k_degree, .lower_shift = 0.4}), hard), 0);
 }
 
 TEST(ForcedLayer, OrthogonalityBetweenFacetsOfUnequalSize) {

@@ -8,7 +8,7 @@
 #include "geom/math/spherical_cap.h"
 #include "geom/mesh/layer_room.h"
 #include "tests/geom/mesh/check_support.h"
-#include "tests/support/constants.h"
+#include "tests/support/test_constants.h"
 
 namespace sterna {
 namespace {
@@ -22,7 +22,7 @@ GateResult judged(GateScan scan) {
 }
 
 HybridMesh regular_plate_of_steps();
-void ask_for(HybridMesh& mesh, double first_height, double height, double max_growth);
+void request_layer(HybridMesh& mesh, double first_height, double height, double max_growth);
 
 GateResult judged_of(const MeasureInfo& info, const GateLimits& limits, std::int64_t n_good, const std::vector<double>& others) {
   GateScan scan(info, limits);
@@ -55,7 +55,7 @@ TEST(Gates, PassWarnFailByHardTargetUsualLimits) {
   scan.add(4.9 * k_degree, 7);
   EXPECT_EQ(judged(scan).state, GateState::fail);
   EXPECT_NEAR(judged(scan).worst, 4.9 * k_degree, 1e-15);
-  EXPECT_EQ(judged(scan).places.front().what, "item 7");
+  EXPECT_EQ(judged(scan).locations.front().what, "item 7");
   EXPECT_EQ(judged(scan).n_too_small, 1);
 }
 
@@ -73,23 +73,23 @@ TEST(Gates, ALimitWithoutEvidenceWarns) {
   const GateResult shared = judged_of(both, both.limits, 9, {21.0});
   EXPECT_EQ(state_for(shared, Consumer::cell_centred), GateState::fail);  // by runs
   EXPECT_EQ(state_for(shared, Consumer::node_centred), GateState::warn);
-  const MeasureInfo& asked = info_of(Measure::first_height);  // compared with the request, by definition
-  EXPECT_EQ(state_for(judged_of(asked, asked.limits, 0, {0.5}), Consumer::node_centred), GateState::fail);
+  const MeasureInfo& requested = info_of(Measure::first_height);  // compared with the request, by definition
+  EXPECT_EQ(state_for(judged_of(requested, requested.limits, 0, {0.5}), Consumer::node_centred), GateState::fail);
 }
 
 TEST(Gates, FirstHeightsFailOnlyAboveAShare) {
-  const MeasureInfo& asked = info_of(Measure::first_height);  // hard 0.2, 0.02 on 99 %; FAIL beyond 1 % of the lines
+  const MeasureInfo& requested = info_of(Measure::first_height);  // hard 0.2, 0.02 on 99 %; FAIL beyond 1 % of the lines
   const auto of = [&](int n_wrong, const GateLimits& limits) {
-    GateScan scan(asked, limits);
+    GateScan scan(requested, limits);
     for (int i = 0; i < 1000; ++i) scan.add(i < n_wrong ? 0.5 : 0.0, static_cast<std::uint64_t>(i));
     return judged(scan);
   };
-  EXPECT_EQ(of(10, asked.limits).state, GateState::warn);
-  EXPECT_TRUE(of(10, asked.limits).is_hard_missed);
-  EXPECT_NEAR(of(10, asked.limits).share_beyond_hard, 0.01, 1e-15);
-  EXPECT_EQ(of(11, asked.limits).state, GateState::fail);
-  EXPECT_NE(to_text(of(11, asked.limits)).find("hard <= 0.2 except on 1 %"), std::string::npos) << to_text(of(11, asked.limits));
-  GateLimits own = asked.limits;
+  EXPECT_EQ(of(10, requested.limits).state, GateState::warn);
+  EXPECT_TRUE(of(10, requested.limits).is_hard_missed);
+  EXPECT_NEAR(of(10, requested.limits).share_beyond_hard, 0.01, 1e-15);
+  EXPECT_EQ(of(11, requested.limits).state, GateState::fail);
+  EXPECT_NE(to_text(of(11, requested.limits)).find("hard <= 0.2 except on 1 %"), std::string::npos) << to_text(of(11, requested.limits));
+  GateLimits own = requested.limits;
   own.hard = 0.3;  // the user's: one line is enough
   EXPECT_EQ(of(1, own).state, GateState::fail);
 }
@@ -116,7 +116,7 @@ TEST(Gates, ItemsAreCountedOnBothSidesOfLimits) {
   EXPECT_EQ(result.n_beyond_target, 30);
   EXPECT_EQ(result.n_too_small, 4);
   EXPECT_EQ(result.n_too_large, 6);
-  EXPECT_EQ(result.places.front().what, "item 0");
+  EXPECT_EQ(result.locations.front().what, "item 0");
   EXPECT_NE(to_text(result).find("; 10 prisms beyond the hard limit, 10 % of the volume, 6 too large, 4 too small; 30 beyond the usual limit"),
             std::string::npos)
       << to_text(result);
@@ -127,7 +127,7 @@ void jump(HybridMesh& mesh, std::uint32_t line) { mesh.points[mesh.layers.node(l
 
 TEST(Gates, PlacesAreClustersOfCellsThatTouch) {
   HybridMesh mesh = regular_plate_of_steps();
-  ask_for(mesh, 0.1 / 6.187, 0.1, 1.3);
+  request_layer(mesh, 0.1 / 6.187, 0.1, 1.3);
   jump(mesh, 8);
   jump(mesh, 9);   // a neighbour
   jump(mesh, 40);  // far away
@@ -137,19 +137,19 @@ TEST(Gates, PlacesAreClustersOfCellsThatTouch) {
   const GateResult& growth = report.gate(Measure::stack_growth);
   EXPECT_EQ(growth.state, GateState::fail);
   EXPECT_EQ(growth.n_beyond_hard, 3);
-  EXPECT_EQ(growth.n_places, 2);
+  EXPECT_EQ(growth.n_locations, 2);
   EXPECT_EQ(growth.n_too_large, 3);
   EXPECT_NEAR(growth.share_beyond, 3.0 / 36, 0.02);  // an inner growth line represents one square
   EXPECT_TRUE(growth.extent.empty());
   EXPECT_EQ(report.quality_state(Consumer::cell_centred), GateState::fail);
-  ASSERT_EQ(report.verdict_places.size(), 2u);
-  EXPECT_GE(report.verdict_places[0].n_places.value(), 1);
+  ASSERT_EQ(report.verdict_locations.size(), 2u);
+  EXPECT_GE(report.verdict_locations[0].n_locations.value(), 1);
   EXPECT_NE(verdict_line(report).find("VALID; cell-centred: FAIL at "), std::string::npos) << verdict_line(report);
 }
 
 TEST(Gates, VerdictForOneSolverKindOmitsOthers) {
   HybridMesh mesh = regular_plate_of_steps();
-  ask_for(mesh, 0.1 / 6.187, 0.1, 1.3);
+  request_layer(mesh, 0.1 / 6.187, 0.1, 1.3);
   jump(mesh, 8);
   const CheckReport both = checked(mesh), nodes = checked(mesh, {.consumers = {.cell_centred = false, .node_centred = true}}),
                     cells = checked(mesh, {.consumers = {.cell_centred = true, .node_centred = false}});
@@ -178,7 +178,7 @@ TEST(Gates, TheWorstTenHoweverTheItemsAreDealt) {
   GateScan merged(info, info.limits);
   for (std::size_t k = parts.size(); k-- > 0;) merged.merge(parts[k]);
   EXPECT_EQ(merged.worst(), whole.worst());
-  EXPECT_EQ(whole.worst().size(), GateScan::k_most_places);
+  EXPECT_EQ(whole.worst().size(), GateScan::k_most_locations);
   for (std::size_t k = 1; k < 10; ++k) {
     EXPECT_EQ(whole.worst()[k].badness, 110.0);
     EXPECT_LT(whole.worst()[k - 1].id, whole.worst()[k].id);
@@ -216,7 +216,7 @@ HybridMesh regular_plate(int n, const ShellOptions& options) {
 HybridMesh regular_plate_of_steps() { return regular_plate(6, {.n_layers = 4, .layer_height = 0.1, .ratio = 1.3}); }
 
 /// Sets a request that the mesh's layers meet.
-void ask_for(HybridMesh& mesh, double first_height, double height, double max_growth) {
+void request_layer(HybridMesh& mesh, double first_height, double height, double max_growth) {
   mesh.request.first_height = first_height;
   mesh.request.max_growth = max_growth;
   mesh.request.target_height.assign(mesh.layers.n_lines(), height);
@@ -228,7 +228,7 @@ TEST(Gates, StraightLayersAsAsked) {
   // Heights 1, 1.25, 1.5625 ... of 4 layers: sum (1.25^4 - 1)/0.25 = 5.765625 times the first.
   constexpr double k_height = 0.1, k_first = k_height / 5.765625;
   HybridMesh mesh = regular_plate(4, {.n_layers = 4, .layer_height = k_height, .ratio = 1.25});
-  ask_for(mesh, k_first, k_height, 1.25);
+  request_layer(mesh, k_first, k_height, 1.25);
   const CheckReport report = checked(mesh);
   EXPECT_NEAR(report.gate(Measure::stack_growth).worst, 1.25, 1e-12);
   EXPECT_EQ(report.gate(Measure::stack_growth).state, GateState::pass);
@@ -251,15 +251,15 @@ TEST(Gates, GrowthIsComparedWithRequestOrDefault) {
   EXPECT_EQ(checked(mesh).gate(Measure::stack_growth).state, GateState::warn);  // default 1.2
   EXPECT_EQ(checked(mesh).gate(Measure::first_height).state, GateState::not_checked);
   EXPECT_NE(to_text(checked(mesh)).find("not checked: the mesh does not store the requested layer"), std::string::npos);
-  ask_for(mesh, 0.01, 0.1, 1.3);
+  request_layer(mesh, 0.01, 0.1, 1.3);
   EXPECT_EQ(checked(mesh).gate(Measure::stack_growth).state, GateState::pass);
   mesh.points[mesh.layers.node(5, 2)].z *= 1.5;
   const CheckReport report = checked(mesh);
   EXPECT_TRUE(report.gate(Measure::stack_growth).is_hard_missed);
-  EXPECT_EQ(report.gate(Measure::stack_growth).places.front().what, "line 5, patch plate");
+  EXPECT_EQ(report.gate(Measure::stack_growth).locations.front().what, "line 5, patch plate");
   // A request beyond the hard limit does not lift it.
   HybridMesh steep = regular_plate(3, {.n_layers = 4, .layer_height = 0.1, .ratio = 2.0});
-  ask_for(steep, 0.1 / 15.0, 0.1, 2.0);
+  request_layer(steep, 0.1 / 15.0, 0.1, 2.0);
   EXPECT_EQ(checked(steep).gate(Measure::stack_growth).state, GateState::warn);
 }
 
@@ -267,7 +267,7 @@ TEST(Gates, EachLineIsMeasuredAgainstItsRequest) {
   // Heights of 4 layers growing by 1.25: sum 5.765625 times the first; of 2 layers 2.25 times.
   constexpr double k_first = 0.1 / 5.765625, k_second = 0.1 / 2.25;
   HybridMesh mesh = two_shells(8, 4, 2, {.layer_height = 0.1, .ratio = 1.25});
-  ask_for(mesh, k_first, 0.1, 1.25);
+  request_layer(mesh, k_first, 0.1, 1.25);
   EXPECT_GT(checked(mesh).gate(Measure::first_height).worst, 1.0);  // from the second body
   for (std::size_t k = 0; k < mesh.layers.n_lines(); ++k) mesh.request.line_first_height.push_back(mesh.layers.layers_of_line(k) == 4 ? k_first : k_second);
   EXPECT_LT(checked(mesh).gate(Measure::first_height).worst, 1e-4);  // rays are slightly inclined to the normals of a faceted sphere
@@ -284,16 +284,16 @@ TEST(Gates, EachLineIsMeasuredAgainstItsRequest) {
 
 TEST(Gates, FirstHeightIsMeasuredAlongNormalWithoutCompression) {
   HybridMesh mesh = regular_plate(3, {.n_layers = 3, .layer_height = 0.3, .ratio = 1.0});
-  ask_for(mesh, 0.08, 0.3, 1.2);
+  request_layer(mesh, 0.08, 0.3, 1.2);
   EXPECT_NEAR(checked(mesh).gate(Measure::first_height).worst, 0.1 / 0.08 - 1.0, 1e-12);
   EXPECT_EQ(checked(mesh).gate(Measure::first_height).state, GateState::fail);
-  ask_for(mesh, 0.11, 0.3, 1.2);  // three cells of 0.11 do not fit: compressed everywhere
+  request_layer(mesh, 0.11, 0.3, 1.2);  // three cells of 0.11 do not fit: compressed everywhere
   const CheckReport compressed = checked(mesh);
   EXPECT_EQ(compressed.gate(Measure::first_height).state, GateState::not_checked);
   EXPECT_NEAR(compressed.coverage[0].full, 1.0, 1e-14);  // but at the full requested height
-  ask_for(mesh, 0.11, 0.4, 1.2);
+  request_layer(mesh, 0.11, 0.4, 1.2);
   EXPECT_NEAR(checked(mesh).coverage[0].compressed, 1.0, 1e-14);
-  ask_for(mesh, 0.08, 0.4, 1.2);
+  request_layer(mesh, 0.08, 0.4, 1.2);
   mesh.request.reason.assign(mesh.layers.n_lines(), 1);
   const CheckReport reduced = checked(mesh);
   EXPECT_NEAR(reduced.coverage[0].reduced, 1.0, 1e-14);
@@ -310,7 +310,7 @@ TEST(Gates, FirstHeightIsMeasuredAlongNormalWithoutCompression) {
   mesh.request.line_boundary_layer.clear();
   // A growth line inclined by 60 degrees is twice as long as its height along the normal; the height is judged.
   for (Point& p : mesh.points) p.x += p.z * std::tan(60 * k_degree);
-  ask_for(mesh, 0.1, 0.6, 1.2);
+  request_layer(mesh, 0.1, 0.6, 1.2);
   EXPECT_NEAR(checked(mesh).gate(Measure::first_height).worst, 0.0, 1e-12);
 }
 
@@ -328,15 +328,15 @@ TEST(Gates, ForcedValuesAreSeparateAndDoNotFail) {
   EXPECT_EQ(some.state, GateState::fail);
   EXPECT_EQ(some.n_beyond_hard, 10);
   EXPECT_EQ(some.n_forced, 8);
-  ASSERT_EQ(some.places.size(), 2u);
-  EXPECT_EQ(some.places.front().what, "item 91");
+  ASSERT_EQ(some.locations.size(), 2u);
+  EXPECT_EQ(some.locations.front().what, "item 91");
   ASSERT_EQ(some.forced.size(), 8u);
   EXPECT_EQ(some.forced.front().what, "item 99");
   EXPECT_EQ(some.forced.front().forcing.remedy, "remesh");
   const GateResult all = judged_with(90);
   EXPECT_EQ(all.state, GateState::pass);
   EXPECT_EQ(all.n_forced, 10);
-  EXPECT_TRUE(all.places.empty());
+  EXPECT_TRUE(all.locations.empty());
   EXPECT_NE(to_text(all).find("10 of 10 beyond the hard limit are forced"), std::string::npos);
 }
 
@@ -381,11 +381,11 @@ TEST(Gates, TetsInNarrowBoundaryAngleAreForced) {
 
 TEST(Gates, CoverageIsByTheHeightAlongTheNormal) {
   HybridMesh mesh = regular_plate(3, {.n_layers = 3, .layer_height = 0.3, .ratio = 1.0});
-  ask_for(mesh, 0.1, 0.32, 1.2);
+  request_layer(mesh, 0.1, 0.32, 1.2);
   EXPECT_NEAR(checked(mesh).coverage[0].full, 1.0, 1e-14);
   for (Point& p : mesh.points) p.x += p.z * std::tan(60 * k_degree);  // twice as long, with unchanged height
   EXPECT_NEAR(checked(mesh).coverage[0].full, 1.0, 1e-14);
-  ask_for(mesh, 0.1, 0.6, 1.2);
+  request_layer(mesh, 0.1, 0.6, 1.2);
   EXPECT_NEAR(checked(mesh).coverage[0].full, 0.0, 1e-14);
   EXPECT_NEAR(checked(mesh).coverage[0].reduced, 1.0, 1e-14);
 }
@@ -393,12 +393,12 @@ TEST(Gates, CoverageIsByTheHeightAlongTheNormal) {
 TEST(Gates, HeightsLimitedByOpposingWallAreNotRequired) {
   // Equal plates with layers of one height facing each other. Without cells between them the mesh is not a tiling, but LayerRoom can judge its coverage.
   constexpr double k_gap = 1.0, k_target = 0.8, k_edge = 0.5;
-  const auto plate = [&](double z, std::array<std::uint32_t, 3> feet, double asked) {
+  const auto plate = [&](double z, std::array<std::uint32_t, 3> base_lines, double requested) {
     std::array<Point, 3> corners = {Point{-1, -1, z}, {1, -1, z}, {0, 2, z}};
     if (z > 0.0) std::swap(corners[1], corners[2]);
-    return FacingTriangle{.corners = corners, .feet = feet, .asked = asked, .edge = k_edge};
+    return FacingTriangle{.corners = corners, .base_lines = base_lines, .requested = requested, .edge = k_edge};
   };
-  const RoomRequest line{.line = 0, .foot = {0, 0, 0}, .normal = {0, 0, 1}, .target = k_target, .edge = k_edge};
+  const RoomRequest line{.line = 0, .base_point = {0, 0, 0}, .normal = {0, 0, 1}, .target = k_target, .edge = k_edge};
   const auto permitted = [&](std::vector<FacingTriangle> boundary, const RoomRequest& of) { return LayerRoom(std::move(boundary), k_context).permitted(of); };
   const FacingTriangle own = plate(0.0, {0, 1, 2}, k_target);
   // Half of the gap left by the kept edges; all of it if no layer grows from the other side; the target if there is room.
@@ -434,7 +434,7 @@ TEST(Gates, LeanOfFirstCellsBeyondBestPossible) {
 
 TEST(Gates, CollapsedLinesAreStepsAndLostArea) {
   HybridMesh mesh = regular_plate(4, {.n_layers = 3, .layer_height = 0.1, .collapsed = {12}});  // the middle vertex: six of 32 triangles
-  ask_for(mesh, 0.01, 0.1, 2.0);
+  request_layer(mesh, 0.01, 0.1, 2.0);
   const CheckReport report = checked(mesh);
   EXPECT_EQ(report.gate(Measure::layer_step).worst, 3.0);
   EXPECT_EQ(report.gate(Measure::layer_step).n_beyond_hard, 6);
@@ -443,7 +443,7 @@ TEST(Gates, CollapsedLinesAreStepsAndLostArea) {
   EXPECT_NEAR(report.gate(Measure::coverage).worst, 30.0 / 32, 1e-14);
   // All three growth lines of a triangle are collapsed: the triangle has no cells, but it is wall.
   HybridMesh bare = regular_plate(4, {.n_layers = 3, .layer_height = 0.1, .collapsed = {12, 13, 18}});
-  ask_for(bare, 0.01, 0.1, 2.0);
+  request_layer(bare, 0.01, 0.1, 2.0);
   ASSERT_EQ(checked(bare).coverage.size(), 1u);
   EXPECT_EQ(checked(bare).coverage[0].patch, "plate");
 }

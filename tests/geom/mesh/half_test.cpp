@@ -8,8 +8,8 @@
 #include "geom/base/error.h"
 #include "geom/math/measures.h"
 #include "geom/mesh/topology.h"
-#include "tests/support/constants.h"
-#include "tests/support/shapes.h"
+#include "tests/support/test_constants.h"
+#include "tests/support/test_shapes.h"
 
 namespace sterna {
 namespace {
@@ -40,7 +40,7 @@ double volume(const TriMesh& mesh, std::size_t axis) {
 }
 
 /// Checks the guarantees of the header for every half.
-void expect_rim(const TriMesh& half, std::size_t axis, double at) {
+void expect_border(const TriMesh& half, std::size_t axis, double at) {
   const Topology topology(half, k_context);
   std::vector<int> balance(half.n_vertices(), 0), n_edges(half.n_vertices(), 0);
   EXPECT_GT(topology.n_boundary_halfedges(), 0u);
@@ -76,7 +76,7 @@ TEST(Half, OfACubeIsExact) {
       for (const char keep : {'+', '-'}) {
         const HalfOptions options{.axis = std::string(1, axis), .at = 0.5, .keep = std::string(1, keep), .snap = 0.0};
         const TriMesh half = half_of(test::cube(n), options, k_context);
-        expect_rim(half, static_cast<std::size_t>(axis - 'x'), 0.5);
+        expect_border(half, static_cast<std::size_t>(axis - 'x'), 0.5);
         EXPECT_NEAR(area(half), 3.0, 1e-14);
       }
 }
@@ -90,7 +90,7 @@ TEST(Half, ExactCutsHaveHalfTheAreaAndVolume) {
       for (const char keep : {'+', '-'}) {
         const TriMesh half = half_of(moved(sphere, at == 0.0 ? Vec3{} : Vec3{0.01, 0.02, 0.03}),
                                      {.axis = std::string(1, axis), .at = at, .keep = std::string(1, keep), .tolerance = 1e-15, .snap = 0.0}, k_context);
-        expect_rim(half, k, at);
+        expect_border(half, k, at);
         areas += area(half);
         Vec3 to_plane;
         to_plane[k] = -at;
@@ -106,7 +106,7 @@ TEST(Half, HasNoSliversBesideTheRim) {
   for (int i = 0; i < 40; ++i) {
     const double at = -0.5 + 0.025 * i + 1e-4 * i * i;
     const TriMesh half = half_of(test::sphere(10), {.at = at}, k_context);
-    expect_rim(half, 1, at);
+    expect_border(half, 1, at);
     double flattest = 1e300;  // height over longest edge
     for (const TriangleId t : half.triangles.ids()) {
       const auto [a, b, c] = corners(half, t);
@@ -152,7 +152,7 @@ TEST(Half, OfAHalfIsTheSame) {
   }
   // A flat side that closes the half is left out.
   TriMesh box = half_of(test::cube(2), {}, k_context);
-  expect_rim(box, 1, 0.0);
+  expect_border(box, 1, 0.0);
   EXPECT_NEAR(area(box), 5.0, 1e-15);
 }
 
@@ -201,7 +201,7 @@ TEST(Half, SaysWhatIsWrong) {
     if (open.code == ErrorCode::internal) continue;  // the hole is in the other half
     EXPECT_EQ(open.code, ErrorCode::open_surface);
     EXPECT_THAT(open.problem, HasSubstr("not closed in the plane:"));
-    EXPECT_FALSE(open.places.empty());
+    EXPECT_FALSE(open.locations.empty());
   }
   // The plane touches the cube in one corner only.
   TriMesh turned = test::cube(1);

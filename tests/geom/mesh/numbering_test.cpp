@@ -15,12 +15,12 @@ namespace {
 
 /// Returns a chain whose numbers jump.
 NeighbourGraph shuffled_chain(std::uint32_t n) {
-  std::vector<std::uint32_t> place(n);
-  for (std::uint32_t i = 0; i < n; ++i) place[i] = (i * 37) % n;  // 37 and n have no common divisor
+  std::vector<std::uint32_t> location(n);
+  for (std::uint32_t i = 0; i < n; ++i) location[i] = (i * 37) % n;  // 37 and n have no common divisor
   std::vector<std::vector<std::uint32_t>> of(n);
   for (std::uint32_t i = 0; i + 1 < n; ++i) {
-    of[place[i]].push_back(place[i + 1]);
-    of[place[i + 1]].push_back(place[i]);
+    of[location[i]].push_back(location[i + 1]);
+    of[location[i + 1]].push_back(location[i]);
   }
   NeighbourGraph graph;
   for (auto& neighbours : of) {

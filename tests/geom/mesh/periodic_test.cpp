@@ -62,9 +62,9 @@ TEST(Periodic, SaysWhereSidesDiffer) {
 
   const TriMesh turned = two_sides(5, true);
   const ErrorInfo face = test::error_info_of([&] { match_periodic(turned, PatchId(0u), PatchId(1u), k_tolerance); });
-  EXPECT_EQ(face.n_places, 2);
+  EXPECT_EQ(face.n_locations, 2);
   EXPECT_NE(face.problem.find("2 faces"), std::string::npos);
-  EXPECT_NEAR(face.places[0].position.x, 0.0, 1e-15);
+  EXPECT_NEAR(face.locations[0].position.x, 0.0, 1e-15);
 
   TriMesh bent = two_sides(5);
   for (const std::uint32_t v : {14u, 50u}) bent.points[VertexId(v)].x += 1e-3;

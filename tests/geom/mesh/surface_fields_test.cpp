@@ -6,9 +6,9 @@
 #include <cmath>
 
 #include "geom/base/error.h"
-#include "tests/support/constants.h"
 #include "tests/support/hybrid_shapes.h"
-#include "tests/support/shapes.h"
+#include "tests/support/test_constants.h"
+#include "tests/support/test_shapes.h"
 
 namespace sterna {
 namespace {

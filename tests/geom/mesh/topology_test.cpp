@@ -5,7 +5,7 @@
 #include <set>
 
 #include "geom/base/error.h"
-#include "tests/support/shapes.h"
+#include "tests/support/test_shapes.h"
 
 namespace sterna {
 namespace {
@@ -112,8 +112,8 @@ TEST(Topology, EdgeOfThreeTrianglesIsErrorWithLocation) {
     FAIL();
   } catch (const Error& error) {
     EXPECT_EQ(error.code(), ErrorCode::non_manifold_surface);
-    ASSERT_EQ(error.n_places(), 1);
-    EXPECT_EQ(error.info().places[0].position, 0.5 * (mesh.points[first[0]] + mesh.points[first[1]]));
+    ASSERT_EQ(error.n_locations(), 1);
+    EXPECT_EQ(error.info().locations[0].position, 0.5 * (mesh.points[first[0]] + mesh.points[first[1]]));
     EXPECT_NE(std::string(error.what()).find("3 triangles where 2 are allowed, patch cube"), std::string::npos) << error.what();
     EXPECT_EQ(error.info().geometry.edges.size(), 1u);
   }
@@ -130,7 +130,7 @@ TEST(Topology, FlippedTriangleIsErrorAtThreeEdges) {
       FAIL();
     } catch (const Error& error) {
       EXPECT_EQ(error.code(), ErrorCode::non_manifold_surface);
-      EXPECT_EQ(error.n_places(), 3);
+      EXPECT_EQ(error.n_locations(), 3);
       messages.push_back(error.what());
     }
   }

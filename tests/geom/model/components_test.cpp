@@ -29,7 +29,9 @@ void expect_closed(const Model& model, double relative_tolerance = 1e-8) {
   for (const EdgeId e : model.edges.ids()) {
     if (model.edges[e].is_degenerate()) continue;
     ASSERT_EQ(uses[e].size(), 2u);
-    const auto direction = [&](const EdgeUsePlace& p) { return model.faces[p.face].borders[p.border][p.place].is_reversed != model.faces[p.face].is_reversed; };
+    const auto direction = [&](const EdgeUseLocation& p) {
+      return model.faces[p.face].borders[p.border][p.location].is_reversed != model.faces[p.face].is_reversed;
+    };
     EXPECT_NE(direction(uses[e][0]), direction(uses[e][1])) << model.edges[e].name;
   }
   for (const ModelFace& face : model.faces) {
@@ -92,7 +94,7 @@ TEST(Components, TubeHasItsVolumeFlatOrDomed) {
   expect_closed(strips);
   EXPECT_NEAR(solid_measures(strips, SolidId(0)).volume, pi * 0.64 * 5.0 + 4.0 / 3.0 * pi * 0.512, 2e-4);  // half spheres again, built across the axis
   EXPECT_EQ(strips.faces.size(), 4u);
-  for (const ErrorPlace& fault : cad::faults_of(*cad::shape_of(strips, RunContext()))) ADD_FAILURE() << fault.what;
+  for (const ErrorLocation& fault : cad::faults_of(*cad::shape_of(strips, RunContext()))) ADD_FAILURE() << fault.what;
 }
 
 TEST(Components, SuperellipsesDoubleEllipsesAndEggsFillTheirBox) {
@@ -194,7 +196,7 @@ TEST(Components, WingletsJoinRound) {
     EXPECT_EQ(round.rows.size(), 2 * wing.sections.size() - 1 + 2 * k_winglet_rows) << name;
     const Model model = make_wing(wing);
     expect_closed(model, 1e-6);
-    for (const ErrorPlace& fault : cad::faults_of(*cad::shape_of(model, RunContext()))) ADD_FAILURE() << name << ": " << fault.what;
+    for (const ErrorLocation& fault : cad::faults_of(*cad::shape_of(model, RunContext()))) ADD_FAILURE() << name << ": " << fault.what;
     // The leading edge, seen along x, continues in the same direction at both ends of the blend; without the blend it bends by 30 degrees and more.
     std::vector<Vec3> starts, ends;
     for (const ModelEdge& edge : model.edges)

@@ -16,9 +16,9 @@
 #include "geom/model/section_rows.h"
 #include "geom/model/set_controls.h"
 #include "geom/model/smx.h"
-#include "tests/support/constants.h"
 #include "tests/support/data.h"
 #include "tests/support/error_of.h"
+#include "tests/support/test_constants.h"
 
 namespace sterna {
 namespace {
@@ -56,7 +56,7 @@ TEST(Deflection, ZeroAngleIsCleanWingToTheBit) {
 
 /// Checks that OpenCASCADE's check finds no faults.
 void expect_valid(const Model& model) {
-  for (const ErrorPlace& fault : cad::faults_of(*cad::shape_of(model, RunContext()))) ADD_FAILURE() << fault.what;
+  for (const ErrorLocation& fault : cad::faults_of(*cad::shape_of(model, RunContext()))) ADD_FAILURE() << fault.what;
 }
 
 double area_of(const Model& model, const std::string& name, FaceRole role) {

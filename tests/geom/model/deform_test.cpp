@@ -16,9 +16,9 @@
 #include "geom/model/swept_surfaces.h"
 #include "geom/model/transformed.h"
 #include "tests/geom/model/evaluator_checks.h"
-#include "tests/support/constants.h"
 #include "tests/support/data.h"
 #include "tests/support/error_of.h"
+#include "tests/support/test_constants.h"
 
 namespace sterna {
 namespace {
@@ -304,8 +304,8 @@ TEST(DeformedModel, FoldOverIsAnErrorWithItsPlace) {
   } catch (const Error& e) {
     EXPECT_EQ(e.code(), ErrorCode::self_intersection);
     EXPECT_THAT(e.what(), testing::AllOf(testing::HasSubstr("folds space"), testing::HasSubstr("face ")));
-    ASSERT_FALSE(e.info().places.empty());
-    EXPECT_NEAR(e.info().places[0].position.x, 1.0, 0.2);
+    ASSERT_FALSE(e.info().locations.empty());
+    EXPECT_NEAR(e.info().locations[0].position.x, 1.0, 0.2);
   }
 }
 

@@ -11,7 +11,7 @@
 #include "geom/model/deform.h"
 #include "geom/model/space_map.h"
 #include "tests/geom/cad/cylinder.h"
-#include "tests/support/constants.h"
+#include "tests/support/test_constants.h"
 
 namespace sterna {
 namespace {

@@ -11,8 +11,8 @@
 #include "geom/model/curves.h"
 #include "geom/model/spline.h"
 #include "geom/model/swept_surfaces.h"
-#include "tests/support/constants.h"
 #include "tests/support/error_of.h"
+#include "tests/support/test_constants.h"
 
 namespace sterna {
 namespace {
@@ -44,13 +44,13 @@ TEST(SurfaceProjector, FindsTheFootOfNormalsOnAWing) {
     const Vec3 n = normalized(cross(d.du, d.dv));
     const double height = 1e-3 * unit(random);
     const Point p = d.point + height * n;
-    const SurfaceFoot foot = projector.seeded(p, {std::clamp(at.u + 0.01 * (unit(random) - 0.5), 0.0, 1.0), at.v + 0.02 * (unit(random) - 0.5)});
-    EXPECT_LE(foot.distance, height + 1e-12);
-    EXPECT_LE(distance(foot.point, s->point(foot.at)), 1e-14 * 10);
-    EXPECT_LE(std::abs(foot.distance - distance(foot.point, p)), 1e-14);
+    const SurfaceProjection projection = projector.seeded(p, {std::clamp(at.u + 0.01 * (unit(random) - 0.5), 0.0, 1.0), at.v + 0.02 * (unit(random) - 0.5)});
+    EXPECT_LE(projection.distance, height + 1e-12);
+    EXPECT_LE(distance(projection.point, s->point(projection.at)), 1e-14 * 10);
+    EXPECT_LE(std::abs(projection.distance - distance(projection.point, p)), 1e-14);
     // The result is either the expected nearest point or, near the thin trailing edge, a nearer point.
-    if (foot.distance >= height - 1e-12) {
-      EXPECT_LE(distance(foot.point, d.point), 1e-7 * std::sqrt(height) + 1e-10);
+    if (projection.distance >= height - 1e-12) {
+      EXPECT_LE(distance(projection.point, d.point), 1e-7 * std::sqrt(height) + 1e-10);
     }
   }
 }
@@ -73,10 +73,10 @@ TEST(SurfaceProjector, NearestAgreesWithBruteForce) {
       const Point p = base + std::pow(10.0, unit(random)) * Vec3{unit(random), unit(random), unit(random)};
       double least = 1e300;
       for (const Point& q : samples) least = std::min(least, distance(p, q));
-      const SurfaceFoot foot = projector.nearest(p);
-      EXPECT_LE(foot.distance, least + 1e-12) << s->kind() << " " << k;
-      EXPECT_GE(foot.distance, least - 0.05) << s->kind();
-      EXPECT_TRUE(box.u.contains(foot.at.u) && box.v.contains(foot.at.v));
+      const SurfaceProjection projection = projector.nearest(p);
+      EXPECT_LE(projection.distance, least + 1e-12) << s->kind() << " " << k;
+      EXPECT_GE(projection.distance, least - 0.05) << s->kind();
+      EXPECT_TRUE(box.u.contains(projection.at.u) && box.v.contains(projection.at.v));
     }
   }
 }
@@ -104,9 +104,9 @@ TEST(SurfaceProjector, CrossesSeamsPolesAndKeepsToBorders) {
   const SurfaceProjector projector(sphere);
   // Seed on the other side of the seam.
   const Point across = 1.1 * sphere->point({0.05, 0.3});
-  const SurfaceFoot foot = projector.seeded(across, {2.0 * k_pi - 0.05, 0.25});
-  EXPECT_NEAR(foot.distance, 0.1, 1e-13);
-  EXPECT_NEAR(foot.at.u, 0.05, 1e-9);
+  const SurfaceProjection projection = projector.seeded(across, {2.0 * k_pi - 0.05, 0.25});
+  EXPECT_NEAR(projection.distance, 0.1, 1e-13);
+  EXPECT_NEAR(projection.at.u, 0.05, 1e-9);
   // Seed at the pole and beyond it.
   for (const double u : {0.1, 2.0, 4.5}) {
     const Point p = 1.2 * sphere->point({u, 0.5 * k_pi - 0.2});
@@ -121,7 +121,7 @@ TEST(SurfaceProjector, CrossesSeamsPolesAndKeepsToBorders) {
   EXPECT_NEAR(flat.nearest({-1, -1, 0}).distance, std::numbers::sqrt2, 1e-14);
   // A projection on a part of a surface stays within the part's parameter box.
   const SurfaceProjector part(sphere, {{1.0, 2.0}, {-0.5, 0.5}});
-  const SurfaceFoot limited = part.nearest({1, 0, 0});
+  const SurfaceProjection limited = part.nearest({1, 0, 0});
   EXPECT_NEAR(limited.at.u, 1.0, 1e-12);
   EXPECT_NEAR(limited.at.v, 0.0, 1e-9);
   test::expect_error(ErrorCode::bad_argument, "the parameter range [1, 1] has no length", [&] { (void)SurfaceProjector(sphere, {{1.0, 1.0}, {0.0, 1.0}}); });
@@ -133,7 +133,7 @@ TEST(SurfaceProjector, SameForAnyNumberOfThreads) {
   std::normal_distribution<double> normal;
   std::vector<Point> points;
   for (int k = 0; k < 3000; ++k) points.push_back({5.0 + 3.0 * normal(random), 6.0 + 4.0 * normal(random), normal(random)});
-  std::vector<SurfaceFoot> one(points.size()), seven(points.size());
+  std::vector<SurfaceProjection> one(points.size()), seven(points.size());
   projector.project(points, {}, one, RunContext({.threads = 1}));
   projector.project(points, {}, seven, RunContext({.threads = 7}));
   for (std::size_t i = 0; i < points.size(); ++i) EXPECT_EQ(one[i].at, seven[i].at);
@@ -153,10 +153,10 @@ TEST(CurveProjector, AgreesWithBruteForceAndStaysWithinEnds) {
       const Point p = 1.5 * Vec3{normal(random), normal(random), normal(random)};
       double least = 1e300;
       for (int i = 0; i <= 4000; ++i) least = std::min(least, distance(p, c->point(range.from + range.length() * i / 4000.0)));
-      const CurveFoot foot = projector.nearest(p);
-      EXPECT_LE(foot.distance, least + 1e-12);
-      EXPECT_GE(foot.distance, least - 1e-4);
-      EXPECT_TRUE(range.contains(foot.t));
+      const CurveProjection projection = projector.nearest(p);
+      EXPECT_LE(projection.distance, least + 1e-12);
+      EXPECT_GE(projection.distance, least - 1e-4);
+      EXPECT_TRUE(range.contains(projection.t));
     }
   }
   const CurveProjector line(segment({0, 0, 0}, {2, 0, 0}));

@@ -158,7 +158,7 @@ double volume_of(const Model& model) { return solid_measures(model, SolidId(0)).
 Model valid(const Body& body) {
   const Model model = make_body(body, body.kind);
   expect_no_opening(model);
-  for (const ErrorPlace& fault : cad::faults_of(*cad::shape_of(model, RunContext()))) ADD_FAILURE() << body.name << ": " << fault.what;
+  for (const ErrorLocation& fault : cad::faults_of(*cad::shape_of(model, RunContext()))) ADD_FAILURE() << body.name << ": " << fault.what;
   return model;
 }
 

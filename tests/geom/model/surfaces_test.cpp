@@ -10,8 +10,8 @@
 #include "geom/model/spline.h"
 #include "geom/model/swept_surfaces.h"
 #include "tests/geom/model/evaluator_checks.h"
-#include "tests/support/constants.h"
 #include "tests/support/error_of.h"
+#include "tests/support/test_constants.h"
 
 namespace sterna {
 namespace {

@@ -27,9 +27,9 @@ TEST(TetBlocks, EveryPlaceIsInOneBlock) {
       const std::vector<Vec3> points = cloud(n, is_flat);
       const Blocks blocks(points, 5, 0.4, RunContext{});
       ASSERT_EQ(blocks.size(), 32u);
-      std::vector<Vec3> places = cloud(200, false);
-      places.insert(places.end(), points.begin(), points.end());
-      for (const Vec3& p : places) {
+      std::vector<Vec3> locations = cloud(200, false);
+      locations.insert(locations.end(), points.begin(), points.end());
+      for (const Vec3& p : locations) {
         const std::size_t found = blocks.find(p);
         for (std::size_t i = 0; i < blocks.size(); ++i) ASSERT_EQ(blocks[i].holds(p), i == found) << n << " points, flat " << is_flat;
       }

@@ -16,29 +16,29 @@ using test::cube_of_tets;
 using test::is_sound;
 using test::TetSoup;
 
-std::vector<Seed> seeds_at(const std::vector<Vec3>& places) {
+std::vector<Seed> seeds_at(const std::vector<Vec3>& locations) {
   std::vector<Seed> seeds;
-  for (const Vec3& p : places) seeds.push_back({.position = p, .start = 0, .room = {}});
+  for (const Vec3& p : locations) seeds.push_back({.position = p, .start = 0, .room = {}});
   return seeds;
 }
 
-std::vector<Vec3> random_places(int n, unsigned seed) {
+std::vector<Vec3> random_locations(int n, unsigned seed) {
   std::mt19937_64 generator(seed);
   std::uniform_real_distribution<double> at(0.01, 0.99);
-  std::vector<Vec3> places;
+  std::vector<Vec3> locations;
   for (int i = 0; i < n; ++i) {
     const double x = at(generator), y = at(generator), z = at(generator);
-    places.push_back({x, y, z});
+    locations.push_back({x, y, z});
   }
-  return places;
+  return locations;
 }
 
-TetMesh with_points(const std::vector<Vec3>& places, int threads = 1) {
+TetMesh with_points(const std::vector<Vec3>& locations, int threads = 1) {
   const RunContext context({.threads = threads});
   const TetSoup cube = cube_of_tets(1);
   TetMesh mesh = connect(cube.points, cube.tetrahedra, context);
   BulkInserter inserter(mesh, context);
-  for (const Insertion result : inserter.insert(seeds_at(places), context)) EXPECT_EQ(result, Insertion::done);
+  for (const Insertion result : inserter.insert(seeds_at(locations), context)) EXPECT_EQ(result, Insertion::done);
   return mesh;
 }
 
@@ -56,16 +56,16 @@ void expect_delaunay(const TetMesh& mesh, std::size_t n_points) {
 }
 
 TEST(TetInsert, RandomCloudsAreDelaunay) {
-  for (const unsigned seed : {1u, 2u, 3u}) expect_delaunay(with_points(random_places(400, seed)), 408);
+  for (const unsigned seed : {1u, 2u, 3u}) expect_delaunay(with_points(random_locations(400, seed)), 408);
 }
 
 TEST(TetInsert, PointsOnOneSphereHaveOneAnswer) {
   // 7^3 points of a grid: eight on one sphere around each cell, many in one plane.
-  std::vector<Vec3> places;
+  std::vector<Vec3> locations;
   for (int i = 1; i < 8; ++i)
     for (int j = 1; j < 8; ++j)
-      for (int k = 1; k < 8; ++k) places.push_back({i / 8.0, j / 8.0, k / 8.0});
-  const TetMesh mesh = with_points(places);
+      for (int k = 1; k < 8; ++k) locations.push_back({i / 8.0, j / 8.0, k / 8.0});
+  const TetMesh mesh = with_points(locations);
   expect_delaunay(mesh, 351);
   // For the grid's own tetrahedra, whose spheres hold no corner of the cube, ties are decided by the node numbers.
   for (std::uint32_t t = 0; t < mesh.nodes.size(); ++t) {
@@ -86,7 +86,7 @@ TEST(TetInsert, ManyPointsGiveSameMeshForAnyThreads) {
     const RunContext context({.threads = threads});
     TetMesh& mesh = meshes.emplace_back(connect(cube.points, cube.tetrahedra, context));
     BulkInserter inserter(mesh, context);
-    std::vector<Seed> seeds = seeds_at(random_places(30000, 5));
+    std::vector<Seed> seeds = seeds_at(random_locations(30000, 5));
     for (Seed& seed : seeds) {
       const auto cell = [&](double x) { return static_cast<std::uint32_t>(12.0 * x); };
       seed.start = 6 * (144 * cell(seed.position.x) + 12 * cell(seed.position.y) + cell(seed.position.z));

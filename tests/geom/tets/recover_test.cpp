@@ -73,7 +73,7 @@ Shell ball(std::uint32_t n) {
   return star(n, [](const Vec3&) { return 1.0; });
 }
 
-std::set<std::array<std::array<double, 3>, 3>> places_of(const Shell& shell) {
+std::set<std::array<std::array<double, 3>, 3>> locations_of(const Shell& shell) {
   std::set<std::array<std::array<double, 3>, 3>> faces;
   for (const Facet& f : shell.facets) {
     std::array<std::array<double, 3>, 3> face;
@@ -99,7 +99,7 @@ void expect_filled(const Shell& shell, const Recovery& recovery, const std::stri
   ASSERT_EQ(recovery.failure.problem, "");
   const TetMesh& mesh = recovery.mesh;
   EXPECT_TRUE(test::is_sound(mesh));
-  EXPECT_EQ(test::boundary_of(mesh), places_of(shell));
+  EXPECT_EQ(test::boundary_of(mesh), locations_of(shell));
   EXPECT_NEAR(test::volume_of(mesh) / volume_of(shell), 1.0, 1e-11);
   ASSERT_GE(mesh.points.size(), shell.points.size());
   for (std::size_t i = 0; i < shell.points.size(); ++i) EXPECT_EQ(mesh.points[i], shell.points[i]);
@@ -255,7 +255,7 @@ TEST(TetRecover, SheetsHaveTheDomainOnBothSides) {
   const Recovery recovery = recover(room.points, room.facets, sheet, RunContext{});
   ASSERT_EQ(recovery.failure.problem, "");
   EXPECT_TRUE(test::is_sound(recovery.mesh));
-  EXPECT_EQ(test::boundary_of(recovery.mesh), places_of(room));
+  EXPECT_EQ(test::boundary_of(recovery.mesh), locations_of(room));
   for (const Facet& f : sheet) {
     int n_tets = 0;
     for (const Corners& v : recovery.mesh.nodes)
@@ -272,9 +272,9 @@ TEST(TetRecover, WhatCannotBeIsToldWithAPlace) {
   const Recovery recovery = recovered(room);
   EXPECT_TRUE(recovery.mesh.nodes.empty());
   EXPECT_NE(recovery.failure.problem, "");
-  ASSERT_GT(recovery.failure.n_places, 0);
-  ASSERT_FALSE(recovery.failure.places.empty());
-  EXPECT_LT(norm(recovery.failure.places[0]), 3.0);
+  ASSERT_GT(recovery.failure.n_locations, 0);
+  ASSERT_FALSE(recovery.failure.locations.empty());
+  EXPECT_LT(norm(recovery.failure.locations[0]), 3.0);
 }
 
 TEST(TetRecover, SameMeshForAnyThreads) {

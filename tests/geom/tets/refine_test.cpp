@@ -129,9 +129,9 @@ TEST(TetRefine, StopsWhenTold) {
   const RunContext context({.threads = 2, .stop = stop.get_token()});
   const TetSoup soup = cube_of_tets(6);
   TetMesh mesh = connect(soup.points, soup.tetrahedra, context);
-  std::atomic<int> n_asked = 0;
+  std::atomic<int> n_requested = 0;
   const auto sizes = [&](const Vec3& p) {
-    if (++n_asked == 5000) stop.request_stop();
+    if (++n_requested == 5000) stop.request_stop();
     return 0.2 * graded(p);
   };
   EXPECT_EQ(test::error_of([&] { refine(mesh, static_cast<std::uint32_t>(soup.points.size()), sizes, context); }).code(), ErrorCode::cancelled);
@@ -141,12 +141,12 @@ TEST(TetRefine, StopsWhenTold) {
 void add_structured_cube(std::uint32_t n, const Vec3& low, double side, bool is_room, std::vector<Vec3>& points, std::vector<Facet>& facets) {
   std::map<std::array<std::uint32_t, 3>, std::uint32_t> numbers;
   const auto at = [&](std::size_t axis, std::uint32_t level, std::uint32_t i, std::uint32_t j) {
-    std::array<std::uint32_t, 3> place{};
-    place[axis] = level * n;
-    place[(axis + 1) % 3] = i;
-    place[(axis + 2) % 3] = j;
-    const auto [it, is_new] = numbers.try_emplace(place, static_cast<std::uint32_t>(points.size()));
-    if (is_new) points.push_back(low + side / n * Vec3{1.0 * place[0], 1.0 * place[1], 1.0 * place[2]});
+    std::array<std::uint32_t, 3> location{};
+    location[axis] = level * n;
+    location[(axis + 1) % 3] = i;
+    location[(axis + 2) % 3] = j;
+    const auto [it, is_new] = numbers.try_emplace(location, static_cast<std::uint32_t>(points.size()));
+    if (is_new) points.push_back(low + side / n * Vec3{1.0 * location[0], 1.0 * location[1], 1.0 * location[2]});
     return it->second;
   };
   for (std::size_t axis = 0; axis < 3; ++axis)

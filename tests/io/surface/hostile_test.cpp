@@ -39,11 +39,11 @@ std::vector<std::filesystem::path> victims() {
   const auto add = [&](const std::filesystem::path& folder, const std::vector<std::string>& starts) {
     for (const auto& entry : std::filesystem::directory_iterator(folder)) {
       const std::string name = entry.path().filename().string();
-      bool is_wanted = entry.is_regular_file() && entry.file_size() <= k_small;
-      is_wanted = is_wanted && std::any_of(starts.begin(), starts.end(), [&](const std::string& start) { return name.starts_with(start); });
+      bool is_needed = entry.is_regular_file() && entry.file_size() <= k_small;
+      is_needed = is_needed && std::any_of(starts.begin(), starts.end(), [&](const std::string& start) { return name.starts_with(start); });
       const auto ends = {".stl", ".obj", ".off",   ".ply",  ".msh", ".su2", ".ugrid", ".vtk", ".vtu", ".nas",
                          ".bdf", ".tri", ".smesh", ".poly", ".zml", ".wgs", ".fmt",   ".p3d", ".xyz"};
-      if (is_wanted && std::any_of(ends.begin(), ends.end(), [&](const char* end) { return name.ends_with(end); })) files.push_back(entry.path());
+      if (is_needed && std::any_of(ends.begin(), ends.end(), [&](const char* end) { return name.ends_with(end); })) files.push_back(entry.path());
     }
   };
   add(corpus() / "io", {""});

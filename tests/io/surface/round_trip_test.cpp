@@ -116,11 +116,11 @@ TEST(SurfaceRoundTrip, EveryWriterKeepsConnectivityCoordinatesAndNames) {
     for (const Patch& patch : back.patches) {
       std::size_t found = mesh.patches.size();
       for (std::size_t i = 0; i < mesh.patches.size(); ++i) {
-        const bool is_told = std::any_of(log.begin(), log.end(), [&](const std::string& line) {
+        const bool is_reported = std::any_of(log.begin(), log.end(), [&](const std::string& line) {
           return line.find("\"" + mesh.patches.raw()[i].name + "\"") != std::string::npos &&
                  (patch.name == numbered(i) || line.find("\"" + patch.name + "\"") != std::string::npos);
         });
-        if (patch.name == mesh.patches.raw()[i].name || (is_told && found == mesh.patches.size())) found = i;
+        if (patch.name == mesh.patches.raw()[i].name || (is_reported && found == mesh.patches.size())) found = i;
       }
       patch_of_back.push_back(found);
     }

@@ -2,7 +2,7 @@
 
 #include "tests/io/surface/surface_tools.h"
 #include "tests/support/data.h"
-#include "tests/support/shapes.h"
+#include "tests/support/test_shapes.h"
 
 namespace sterna::test {
 namespace {

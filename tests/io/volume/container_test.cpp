@@ -27,17 +27,20 @@ const RunContext k_quiet({.threads = 1});
 std::string image_bytes() {
   const std::vector<std::int32_t> numbers = {1, 2, 3, 4, 5, 6};
   std::string text;
-  const auto place = [&](std::string_view word) {
-    const wire::Text place{.begin = text.size(), .size = word.size()};
+  const auto location = [&](std::string_view word) {
+    const wire::Text location{.begin = text.size(), .size = word.size()};
     text += word;
-    return place;
+    return location;
   };
   std::vector<wire::NodeRecord> nodes(5);
-  nodes[1] = {.parent = 0, .role = wire::Role::attribute, .kind = NumberKind::text, .rank = 1, .name = place("label"), .extents = {4}};
-  nodes[2] = {.parent = 0, .role = wire::Role::dataset, .kind = NumberKind::i4, .rank = 2, .name = place("numbers"), .extents = {2, 3}};
-  nodes[3] = {.parent = 0, .role = wire::Role::group, .name = place("group")};
-  nodes[4] = {
-      .parent = 3, .role = wire::Role::dataset, .trouble = wire::Trouble::unsupported, .name = place("packed"), .problem = place("it is packed by magic")};
+  nodes[1] = {.parent = 0, .role = wire::Role::attribute, .kind = NumberKind::text, .rank = 1, .name = location("label"), .extents = {4}};
+  nodes[2] = {.parent = 0, .role = wire::Role::dataset, .kind = NumberKind::i4, .rank = 2, .name = location("numbers"), .extents = {2, 3}};
+  nodes[3] = {.parent = 0, .role = wire::Role::group, .name = location("group")};
+  nodes[4] = {.parent = 3,
+              .role = wire::Role::dataset,
+              .trouble = wire::Trouble::unsupported,
+              .name = location("packed"),
+              .problem = location("it is packed by magic")};
   const std::uint64_t values = sizeof(wire::ImageHeader) + sizeof(wire::NodeRecord) * nodes.size() + text.size();
   nodes[1].begin = values;
   nodes[1].n_bytes = 4;

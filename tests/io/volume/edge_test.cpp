@@ -78,7 +78,7 @@ std::string little_endian(const std::string& big) {
   for (std::size_t at = 0; at < big.size();) {
     const char type = big[at + 4 + 16];
     const std::size_t n = number(at + 24) * number(at + 28);
-    for (const std::size_t place : {at, at + 24, at + 28, at + 32, at + 36}) turn(place, 4);
+    for (const std::size_t location : {at, at + 24, at + 28, at + 32, at + 36}) turn(location, 4);
     at += 40;
     if (n == 0) continue;
     const std::size_t n_bytes = number(at), size = type == 'D' ? 8 : type == 'I' ? 4 : 1;

@@ -42,10 +42,10 @@ std::vector<Variant> variants() {
 }
 
 /// Writes and reads the mesh; collects the messages.
-HybridMesh through(const HybridMesh& mesh, const Variant& variant, const std::filesystem::path& folder, std::vector<std::string>* told = nullptr,
+HybridMesh through(const HybridMesh& mesh, const Variant& variant, const std::filesystem::path& folder, std::vector<std::string>* reported = nullptr,
                    Numbering cells = Numbering::lines) {
-  const RunContext context({.threads = 2, .log = [told](LogLevel level, std::string_view text) {
-                              if (told && level == LogLevel::warning) told->emplace_back(text);
+  const RunContext context({.threads = 2, .log = [reported](LogLevel level, std::string_view text) {
+                              if (reported && level == LogLevel::warning) reported->emplace_back(text);
                             }});
   // "polymesh" is a folder name, not an extension; an OpenFOAM folder holds one mesh.
   const std::filesystem::path path = variant.extension.starts_with('.') ? folder / variant.extension.substr(1) / ("mesh" + variant.extension)
@@ -125,15 +125,15 @@ std::vector<PatchId> expect_same_content(const HybridMesh& back, const Content& 
 }
 
 /// Checks that names are kept, or that a message states the old and the new name.
-void expect_names(const HybridMesh& back, const HybridMesh& mesh, const std::vector<PatchId>& patch_of, const std::vector<std::string>& told) {
+void expect_names(const HybridMesh& back, const HybridMesh& mesh, const std::vector<PatchId>& patch_of, const std::vector<std::string>& reported) {
   EXPECT_EQ(back.patches.size(), mesh.patches.size());
   for (const PatchId patch : back.patches.ids()) {
     ASSERT_TRUE(patch_of[patch.index()].is_valid()) << "a patch without faces: " << back.patches[patch].name;
-    const std::string &found = back.patches[patch].name, &wanted = mesh.patches[patch_of[patch.index()]].name;
-    if (found == wanted) continue;
-    EXPECT_TRUE(std::any_of(told.begin(), told.end(),
-                            [&](const std::string& line) { return line.find(wanted) != std::string::npos && line.find(found) != std::string::npos; }))
-        << "\"" << wanted << "\" came back as \"" << found << "\", and nobody tells";
+    const std::string &found = back.patches[patch].name, &required = mesh.patches[patch_of[patch.index()]].name;
+    if (found == required) continue;
+    EXPECT_TRUE(std::any_of(reported.begin(), reported.end(),
+                            [&](const std::string& line) { return line.find(required) != std::string::npos && line.find(found) != std::string::npos; }))
+        << "\"" << required << "\" came back as \"" << found << "\", and nobody tells";
   }
 }
 
@@ -146,9 +146,9 @@ TEST(EveryVolumeFormat, KeepsCellsFacesAndNames) {
   ASSERT_GE(variants().size(), 12u);
   for (const Variant& variant : variants()) {
     SCOPED_TRACE(variant.name());
-    std::vector<std::string> told;
-    const HybridMesh back = through(mesh, variant, test::scratch(), &told);
-    expect_names(back, mesh, expect_same_content(back, content, precision_of(variant)), told);
+    std::vector<std::string> reported;
+    const HybridMesh back = through(mesh, variant, test::scratch(), &reported);
+    expect_names(back, mesh, expect_same_content(back, content, precision_of(variant)), reported);
     EXPECT_EQ(back.patches.size(), 6u);
     for (const PatchId patch : back.patches.ids())
       EXPECT_EQ(std::count_if(mesh.patches.begin(), mesh.patches.end(), [&](const Patch& p) { return p.name == back.patches[patch].name; }), 1)
@@ -168,14 +168,14 @@ PatchKind kind_after(const Format& format, const Patch& patch) {
 
 /// Layers that end on patches of all kinds, with quads beside triangles, and triangles beside collapsed growth lines.
 TEST(EveryVolumeFormat, KeepsQuadsOfEveryKindOfPatch) {
-  const HybridMesh mesh = test::half_shell_of_all_kinds(5, {.has_collapsed_rim = true});
+  const HybridMesh mesh = test::half_shell_of_all_kinds(5, {.has_collapsed_border = true});
   const Content content(mesh);
   for (const Variant& variant : variants()) {
     SCOPED_TRACE(variant.name());
-    std::vector<std::string> told;
-    const HybridMesh back = through(mesh, variant, test::scratch(), &told);
+    std::vector<std::string> reported;
+    const HybridMesh back = through(mesh, variant, test::scratch(), &reported);
     const std::vector<PatchId> patch_of = expect_same_content(back, content, 2.0 * precision_of(variant));  // coordinates are up to 3
-    expect_names(back, mesh, patch_of, told);
+    expect_names(back, mesh, patch_of, reported);
     EXPECT_EQ(back.boundary_quads.size(), mesh.boundary_quads.size());
     for (const PatchId patch : back.patches.ids()) {
       const Patch& original = mesh.patches[patch_of[patch.index()]];
@@ -191,9 +191,9 @@ TEST(EveryVolumeFormat, KeepsLinesWithOwnNumbersOfLayers) {
     const Content content(mesh);
     for (const Variant& variant : variants()) {
       SCOPED_TRACE(variant.name());
-      std::vector<std::string> told;
-      const HybridMesh back = through(mesh, variant, test::scratch(), &told);
-      expect_names(back, mesh, expect_same_content(back, content, 16.0 * precision_of(variant)), told);  // the second body is at 10 to 14
+      std::vector<std::string> reported;
+      const HybridMesh back = through(mesh, variant, test::scratch(), &reported);
+      expect_names(back, mesh, expect_same_content(back, content, 16.0 * precision_of(variant)), reported);  // the second body is at 10 to 14
       if (precision_of(variant) == 0.0) {
         EXPECT_TRUE(check(back, {}, RunContext({.threads = 2})).is_valid());
       }
@@ -247,9 +247,9 @@ TEST(EveryVolumeFormat, VolumesInDoublePrecisionArePositiveAfterReading) {
     EXPECT_EQ(error.code, ErrorCode::mesh_invalid);
     EXPECT_NE(error.problem.find("flat or folded"), std::string::npos) << error.problem;
     EXPECT_NE(error.hint.find(".lb8.ugrid"), std::string::npos);
-    ASSERT_FALSE(error.places.empty());
-    EXPECT_NE(error.places.front().what.find("near patch"), std::string::npos) << error.places.front().what;
-    EXPECT_LT(distance(error.places.front().position, Point{100.0, 100.0, 100.0}), 3.0);
+    ASSERT_FALSE(error.locations.empty());
+    EXPECT_NE(error.locations.front().what.find("near patch"), std::string::npos) << error.locations.front().what;
+    EXPECT_LT(distance(error.locations.front().position, Point{100.0, 100.0, 100.0}), 3.0);
   }
 }
 
@@ -267,9 +267,9 @@ TEST(EveryVolumeFormat, AwkwardNamesAreKeptOrTold) {
   const Content content(mesh);
   for (const Variant& variant : variants()) {
     SCOPED_TRACE(variant.name());
-    std::vector<std::string> told;
-    const HybridMesh back = through(mesh, variant, test::scratch(), &told);
-    expect_names(back, mesh, expect_same_content(back, content, precision_of(variant)), told);
+    std::vector<std::string> reported;
+    const HybridMesh back = through(mesh, variant, test::scratch(), &reported);
+    expect_names(back, mesh, expect_same_content(back, content, precision_of(variant)), reported);
   }
 }
 
@@ -337,9 +337,9 @@ TEST(EveryVolumeFormat, EveryPairKeepsCellsFacesAndNames) {
     const HybridMesh once = through(mesh, first, folder / "once");
     for (const Variant& second : variants()) {
       SCOPED_TRACE(first.name() + " to " + second.name());
-      std::vector<std::string> told;
-      const HybridMesh twice = through(once, second, folder / "twice", &told);
-      expect_names(twice, mesh, expect_same_content(twice, content, std::max(precision_of(first), precision_of(second))), told);
+      std::vector<std::string> reported;
+      const HybridMesh twice = through(once, second, folder / "twice", &reported);
+      expect_names(twice, mesh, expect_same_content(twice, content, std::max(precision_of(first), precision_of(second))), reported);
     }
   }
 }

@@ -122,9 +122,9 @@ TEST(FoamRealMesh, CheckMeshPassesExceptRidgesAndForcedFaces) {
   const SternaContent content = read_sterna(folder / "case.sterna", RunContext({.threads = 2}));
   ASSERT_TRUE(content.surface && content.mesh);
   const auto poly = folder / "text.foam" / "constant" / "polyMesh";
-  const CellPlaces places(content, poly);
+  const CellPlaces locations(content, poly);
   for (const std::size_t face : test::read_labels(poly / "sets" / "skewFaces"))
-    EXPECT_LE(places.distance_of(face), k_near) << "skewness above 4 at face " << face;
+    EXPECT_LE(locations.distance_of(face), k_near) << "skewness above 4 at face " << face;
 
   const std::vector<std::size_t> steep = test::read_labels(poly / "sets" / "nonOrthoFaces");
   EXPECT_EQ(static_cast<double>(steep.size()), test::number_after(*output, "non-orthogonal (> 70 degrees) faces:"));
@@ -132,20 +132,20 @@ TEST(FoamRealMesh, CheckMeshPassesExceptRidgesAndForcedFaces) {
   constexpr double k_share_of_tetrahedra = 0.03;  // 1.6 % here: Delaunay tetrahedra guarantee no such angle
   std::size_t n_between_tetrahedra = 0, n_by_wall = 0, n_at_ridges = 0;
   for (const std::size_t face : steep) {
-    ASSERT_TRUE(places.is_inner(face));
-    if (!places.is_of_layer(places.owner(face)) || !places.is_of_layer(places.neighbour(face))) {
+    ASSERT_TRUE(locations.is_inner(face));
+    if (!locations.is_of_layer(locations.owner(face)) || !locations.is_of_layer(locations.neighbour(face))) {
       ++n_between_tetrahedra;
       continue;
     }
-    if (places.distance_of(face) <= k_near) {
+    if (locations.distance_of(face) <= k_near) {
       ++n_at_ridges;
       continue;
     }
     ++n_by_wall;
-    EXPECT_TRUE(places.is_side(face) && places.angle_on_wall(face) > k_limit)
+    EXPECT_TRUE(locations.is_side(face) && locations.angle_on_wall(face) > k_limit)
         << "face " << face << ": the layer is steep away from ridges where the wall is not";
   }
-  EXPECT_LT(static_cast<double>(n_between_tetrahedra), k_share_of_tetrahedra * static_cast<double>(places.n_inner()));
+  EXPECT_LT(static_cast<double>(n_between_tetrahedra), k_share_of_tetrahedra * static_cast<double>(locations.n_inner()));
   RecordProperty("steep_at_ridges", static_cast<int>(n_at_ridges));
   RecordProperty("steep_by_wall", static_cast<int>(n_by_wall));
   RecordProperty("steep_between_tetrahedra", static_cast<int>(n_between_tetrahedra));

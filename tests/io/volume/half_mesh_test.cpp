@@ -16,7 +16,7 @@ using testing::HasSubstr;
 using testing::Not;
 
 /// Returns a mesh with seven patches of seven kinds. Five are in the plane, each with quads, and with triangles beside collapsed growth lines or of tetrahedra.
-HybridMesh half_mesh() { return test::half_shell_of_all_kinds(6, {.shell = {.n_layers = 4}, .has_collapsed_rim = true}); }
+HybridMesh half_mesh() { return test::half_shell_of_all_kinds(6, {.shell = {.n_layers = 4}, .has_collapsed_border = true}); }
 
 using test::write;
 

@@ -38,10 +38,10 @@ ReadMesh read_with_warnings(const std::filesystem::path& path, io::Incomplete in
 std::multiset<std::vector<std::array<double, 3>>> faces_of(const HybridMesh& mesh) {
   std::multiset<std::vector<std::array<double, 3>>> faces;
   const auto add = [&](const auto& face) {
-    std::vector<std::array<double, 3>> places;
-    for (const NodeId node : face.nodes) places.push_back({mesh.points[node].x, mesh.points[node].y, mesh.points[node].z});
-    std::sort(places.begin(), places.end());
-    faces.insert(std::move(places));
+    std::vector<std::array<double, 3>> locations;
+    for (const NodeId node : face.nodes) locations.push_back({mesh.points[node].x, mesh.points[node].y, mesh.points[node].z});
+    std::sort(locations.begin(), locations.end());
+    faces.insert(std::move(locations));
   };
   std::ranges::for_each(mesh.boundary_triangles, add);
   std::ranges::for_each(mesh.boundary_quads, add);

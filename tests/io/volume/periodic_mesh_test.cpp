@@ -6,12 +6,12 @@
 #include "geom/mesh/periodic.h"
 #include "io/file/volume_file.h"
 #include "tests/io/volume/volume_tools.h"
-#include "tests/support/constants.h"
 #include "tests/support/data.h"
 #include "tests/support/error_of.h"
 #include "tests/support/hybrid_shapes.h"
 #include "tests/support/openfoam_tools.h"
 #include "tests/support/process.h"
+#include "tests/support/test_constants.h"
 
 namespace sterna::io {
 namespace {

@@ -105,12 +105,12 @@ void expect_same_after_reading(const HybridMesh& back, const HybridMesh& mesh, C
   expect_same_cells(CellKind::pyramid, back.pyramids, expected.pyramids, order);
   expect_same_cells(CellKind::hexahedron, back.hexahedra, expected.hexahedra, order);
   expect_same_cells(CellKind::tetrahedron, back.tetrahedra, expected.tetrahedra, order);
-  const auto found = named_faces(back), wanted = named_faces(mesh);
-  ASSERT_EQ(found.size(), wanted.size());
-  for (std::size_t i = 0; i < wanted.size(); ++i) {
-    ASSERT_EQ(found[i].patch, wanted[i].patch);
-    ASSERT_EQ(to_string(found[i].kind), to_string(kinds == Kinds::kept ? wanted[i].kind : io::kind_of_name(wanted[i].patch))) << wanted[i].patch;
-    ASSERT_EQ(found[i].nodes, wanted[i].nodes) << wanted[i].patch;
+  const auto found = named_faces(back), required = named_faces(mesh);
+  ASSERT_EQ(found.size(), required.size());
+  for (std::size_t i = 0; i < required.size(); ++i) {
+    ASSERT_EQ(found[i].patch, required[i].patch);
+    ASSERT_EQ(to_string(found[i].kind), to_string(kinds == Kinds::kept ? required[i].kind : io::kind_of_name(required[i].patch))) << required[i].patch;
+    ASSERT_EQ(found[i].nodes, required[i].nodes) << required[i].patch;
   }
   EXPECT_NEAR(enclosed_volume(back), volume_of(mesh), 1e-12 * volume_of(mesh));  // rounding of sums
 }

@@ -11,11 +11,11 @@
 #include "io/file/volume_file.h"
 #include "tests/io/volume/round_trip.h"
 #include "tests/io/volume/volume_tools.h"
-#include "tests/support/constants.h"
 #include "tests/support/data.h"
 #include "tests/support/hybrid_shapes.h"
 #include "tests/support/sanitizers.h"
-#include "tests/support/shapes.h"
+#include "tests/support/test_constants.h"
+#include "tests/support/test_shapes.h"
 
 namespace sterna::io {
 namespace {
@@ -222,8 +222,8 @@ void put_at(std::string& text, std::size_t at, T value) {
 
 /// Returns the text with corrected hashes of directory and head, as in a deliberate attack.
 std::string with_right_hashes(std::string text) {
-  const auto place = number_at<std::uint64_t>(text, 24);
-  put_at(text, 40, hash_bytes(std::string_view(text).substr(place)));
+  const auto location = number_at<std::uint64_t>(text, 24);
+  put_at(text, 40, hash_bytes(std::string_view(text).substr(location)));
   put_at(text, 56, hash_bytes(std::string_view(text).substr(0, 56)));
   return text;
 }
@@ -232,8 +232,8 @@ TEST(Sterna, DirectoriesThatLieAreRefused) {
   const auto path = test::scratch() / "run.sterna";
   write_sterna(Everything().parts(), path, k_context);
   const std::string bytes = test::bytes_of(path);
-  const auto place = number_at<std::uint64_t>(bytes, 24);
-  for (std::size_t at = place; at < bytes.size(); at += 3) {
+  const auto location = number_at<std::uint64_t>(bytes, 24);
+  for (std::size_t at = location; at < bytes.size(); at += 3) {
     std::string text = bytes;
     text[at] = static_cast<char>(text[at] ^ (at % 2 == 0 ? 0x01 : 0x80));
     std::ofstream(path, std::ios::binary) << with_right_hashes(text);

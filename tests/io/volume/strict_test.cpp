@@ -15,13 +15,13 @@
 #include "io/input/byte_reader.h"
 #include "io/input/text_scanner.h"
 #include "io/output/cell_sections.h"
-#include "io/output/mesh_faces.h"
+#include "io/output/face_connectivity.h"
 #include "tests/io/volume/volume_tools.h"
-#include "tests/support/constants.h"
 #include "tests/support/data.h"
 #include "tests/support/hybrid_shapes.h"
 #include "tests/support/reader_checks.h"
-#include "tests/support/shapes.h"
+#include "tests/support/test_constants.h"
+#include "tests/support/test_shapes.h"
 
 namespace sterna::io {
 namespace {

@@ -43,12 +43,12 @@ using test::write;
 /// Returns the mesh with the sample's patches in the order of their numbers; reading orders patches by appearance.
 HybridMesh with_patches_of_mapbc(HybridMesh mesh, const std::vector<std::string>& names) {
   Column<PatchId, Patch> sorted;
-  std::vector<PatchId> place(mesh.patches.size());
+  std::vector<PatchId> location(mesh.patches.size());
   for (const std::string& name : names)
     for (const PatchId patch : mesh.patches.ids())
-      if (mesh.patches[patch].name == name) place[patch.index()] = sorted.push_back(mesh.patches[patch]);
-  for (auto& face : mesh.boundary_triangles) face.patch = place[face.patch.index()];
-  for (auto& face : mesh.boundary_quads) face.patch = place[face.patch.index()];
+      if (mesh.patches[patch].name == name) location[patch.index()] = sorted.push_back(mesh.patches[patch]);
+  for (auto& face : mesh.boundary_triangles) face.patch = location[face.patch.index()];
+  for (auto& face : mesh.boundary_quads) face.patch = location[face.patch.index()];
   mesh.patches = sorted;
   return mesh;
 }

@@ -170,8 +170,8 @@ HybridMesh mesh_of_six_patches() {
   // The sides of the plate by location: y = 0 is the symmetry plane; x = 0 and the opposite side are inflow and outflow.
   Box box;
   for (const Point& p : mesh.points) box.add(p);
-  const auto lies_at = [&](std::span<const NodeId> nodes, std::size_t axis, double place) {
-    return std::all_of(nodes.begin(), nodes.end(), [&](NodeId node) { return mesh.points[node][axis] == place; });
+  const auto lies_at = [&](std::span<const NodeId> nodes, std::size_t axis, double location) {
+    return std::all_of(nodes.begin(), nodes.end(), [&](NodeId node) { return mesh.points[node][axis] == location; });
   };
   const auto assign = [&](auto& faces) {
     for (auto& face : faces) {

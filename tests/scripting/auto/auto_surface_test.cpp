@@ -192,8 +192,8 @@ TEST_P(AutoHalfTest, IsRecognisedToldAndMeshed) {
   file << "OFF\n" << 2 + (k_along - 1) * (k_around + 1) << " " << 2 * (k_along - 1) * k_around << " 0\n";
   file.precision(15);
   int n = 0;
-  const auto write = [&](double x, double y, double z, bool is_rim) {
-    if (is_rim) y = off * std::sin(7.0 * ++n);
+  const auto write = [&](double x, double y, double z, bool is_border) {
+    if (is_border) y = off * std::sin(7.0 * ++n);
     const Point p = axis == 0 ? Point{y, x, z} : axis == 1 ? Point{x, y, z} : Point{x, z, y};
     file << p.x << " " << p.y << " " << p.z << "\n";
   };
@@ -245,8 +245,8 @@ TEST_F(AutoSurfaceTest, ReadSurfaceTakesTheSame) {
   write_open_box();
   const std::string open = out("open.off");
   EXPECT_THAT(error("read_surface{ " + open + " }"), HasSubstr("open"));
-  for (const char* asked : {"repair = true", "repair = { hole = 0.5 }", "auto = true"})
-    EXPECT_THAT(run("print(read_surface{ " + open + ", " + asked + " })"), HasSubstr("closed")) << asked;
+  for (const char* requested : {"repair = true", "repair = { hole = 0.5 }", "auto = true"})
+    EXPECT_THAT(run("print(read_surface{ " + open + ", " + requested + " })"), HasSubstr("closed")) << requested;
   EXPECT_THAT(run("print(repair{ read_surface{ " + open + ", allow_open = true } })"), HasSubstr("closed"));
   EXPECT_THAT(error("read_surface{ " + open + ", repair = true, wrap = true }"), HasSubstr("at most one of repair, wrap and auto"));
   EXPECT_THAT(error("read_surface{ " + open + ", repair = { hoel = 1 } }"), HasSubstr("hole"));

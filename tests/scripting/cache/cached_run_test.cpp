@@ -311,14 +311,14 @@ TEST_F(CachedRun, ModelsAreWhatTheyWereMadeOf) {
 TEST_F(CachedRun, DamagedEntriesOfARunAreMadeAnew) {
   const Files without = run(k_case, false);
   run(k_case, true);
-  for (const std::size_t place : {0u, 30u, 60u, 500u}) {
+  for (const std::size_t location : {0u, 30u, 60u, 500u}) {
     for (const CacheEntry& entry : StageCache::entries(folder_ / "cache")) {
       std::string bytes = bytes_of(entry.file);
-      bytes[std::min(place, bytes.size() - 1)] ^= 1;
-      if (place == 500u) bytes.resize(bytes.size() / 2);
+      bytes[std::min(location, bytes.size() - 1)] ^= 1;
+      if (location == 500u) bytes.resize(bytes.size() / 2);
       std::ofstream(entry.file, std::ios::binary) << bytes;
     }
-    expect_same(run(k_case, true), without, "damaged at " + std::to_string(place));
+    expect_same(run(k_case, true), without, "damaged at " + std::to_string(location));
     EXPECT_EQ(n_reused(), 0);
     EXPECT_THAT(log_, HasSubstr("warning: cache: "));
     expect_same(run(k_case, true), without, "made anew");

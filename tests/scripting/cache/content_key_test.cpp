@@ -7,9 +7,9 @@
 
 #include "scripting/lua/component_value.h"
 #include "scripting/values/models.h"
-#include "scripting/values/stages.h"
+#include "scripting/values/stored_stages.h"
 #include "scripting/values/verbs.h"
-#include "tests/support/shapes.h"
+#include "tests/support/test_shapes.h"
 
 namespace sterna::scripting {
 namespace {

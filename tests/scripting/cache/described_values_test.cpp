@@ -23,7 +23,7 @@ OptionValue another(const Option& option) {
     case OptionKind::boolean: return !std::get<bool>(value);
     case OptionKind::integer: return std::get<std::int64_t>(value) + 1;
     case OptionKind::number: return std::isinf(option.max) ? option.min + 0.7 : option.min + 0.7 * (option.max - option.min);
-    case OptionKind::text: return option.choices.empty() ? "another" : std::string(option.choices.substr(option.choices.rfind(' ') + 1));
+    case OptionKind::string: return option.choices.empty() ? "another" : std::string(option.choices.substr(option.choices.rfind(' ') + 1));
     case OptionKind::vector: return Vec3{0.1, 0.2, 0.3};
     case OptionKind::numbers: return std::vector<double>{0.1, 0.7};
     case OptionKind::vectors: return std::vector<Vec3>{{0.1, 0.2, 0.3}, {1.0, 2.0, 3.0}};

@@ -32,7 +32,7 @@ class Advice : public ScriptFixture {
     else EXPECT_LT(then.worst, first.worst) << to_text(first) << to_text(then);
   }
   /// The same where the measure is beyond its hard limit before and keeps it then.
-  static void expect_mended(Measure measure, const std::string& words, const CheckReport& before, const CheckReport& after) {
+  static void expect_repaired(Measure measure, const std::string& words, const CheckReport& before, const CheckReport& after) {
     EXPECT_TRUE(before.gate(measure).is_hard_missed) << to_text(before.gate(measure));
     EXPECT_FALSE(after.gate(measure).is_hard_missed) << to_text(after.gate(measure));
     expect_better(measure, words, before, after);
@@ -62,7 +62,7 @@ TEST_F(Advice, RemeshingGapWallsImprovesTheirCells) {
   const std::string read = "local wall = read_surface{ 'cubes.stl' } ",
                     mesh = " local mesh = volume_mesh{ wall, layers = 8, first_height = 1e-3, farfield = sphere{ radius = 10 } }";
   const CheckReport before = checked(read + mesh), after = checked(read + "wall = remesh{ wall, max_edge = 0.3, gap_cells = 2 }" + mesh);
-  expect_mended(Measure::tet_growth, "in gaps with gap_cells", before, after);
+  expect_repaired(Measure::tet_growth, "in gaps with gap_cells", before, after);
   for (const Measure measure : {Measure::face_weight, Measure::volume_ratio}) expect_better(measure, "remesh the wall there", before, after);
 }
 
@@ -79,15 +79,15 @@ TEST_F(Advice, SharpEdges) {
   const CheckReport sharp = checked(wing_with_edge("0") + mesh_of_wing("layers = 12"));
   const CheckReport blunt = checked(wing_with_edge("0.01") + mesh_of_wing("layers = 12"));
   for (const Measure measure : {Measure::min_dihedral, Measure::face_weight, Measure::volume_ratio, Measure::face_tets})
-    expect_mended(measure, "at a sharp edge, give the edge a width", sharp, blunt);
+    expect_repaired(measure, "at a sharp edge, give the edge a width", sharp, blunt);
   for (const Measure measure : {Measure::sub_volume_ratio, Measure::edge_ratio}) expect_better(measure, "at a sharp edge, give the edge a width", sharp, blunt);
-  expect_mended(Measure::layer_step, "give the sharp edge there a width", sharp, blunt);
+  expect_repaired(Measure::layer_step, "give the sharp edge there a width", sharp, blunt);
   for (const Measure measure : {Measure::orthogonality, Measure::non_orthogonality}) expect_better(measure, "give the sharp edge a width", sharp, blunt);
   expect_better(Measure::skewness, "a width of the edge", sharp, blunt);
   const CheckReport fans = checked(wing_with_edge("0") + mesh_of_wing("layers = 12, ridges = { open_ridges = 'always' }"));
   expect_better(Measure::skewness, "open_ridges = \"always\"", sharp, fans);
   const CheckReport few = checked(wing_with_edge("0") + mesh_of_wing("layers = 8"));
-  expect_mended(Measure::layer_step, "or fewer layers", sharp, few);
+  expect_repaired(Measure::layer_step, "or fewer layers", sharp, few);
   for (const Measure measure : {Measure::interface_height, Measure::interface_volume}) expect_better(measure, "more layers", few, sharp);
 }
 
@@ -103,8 +103,8 @@ local mesh = volume_mesh{ wall, first_height = 2e-4, farfield = sphere{ radius =
            options + " }";
   };
   const CheckReport before = checked(script(""));
-  expect_mended(Measure::first_height, "truncate = \"auto\"", before, checked(script(", truncate = 'auto'")));
-  expect_mended(Measure::first_height, "or fewer layers", before, checked(script(", layers = 15")));
+  expect_repaired(Measure::first_height, "truncate = \"auto\"", before, checked(script(", truncate = 'auto'")));
+  expect_repaired(Measure::first_height, "or fewer layers", before, checked(script(", layers = 15")));
 }
 
 const std::string k_short_can = "local can = cylinder{ {0,0,0}, {2,0,0}, radius=1, name='can' } local wall = surface_mesh{ can, max_edge=0.5 } ";
@@ -116,7 +116,7 @@ TEST_F(Advice, LayerLowerThanTheBoundaryLayer) {
   const CheckReport after = checked(flow + k_short_can +
                                     "local mesh = volume_mesh{ wall, total_height = boundary_layer{ cruise }, max_growth = 1.3, first_height = y_plus{ 100, "
                                     "cruise }, farfield = sphere{ radius = 10 } }");
-  expect_mended(Measure::boundary_layer, "total_height = boundary_layer{ ... }", before, after);
+  expect_repaired(Measure::boundary_layer, "total_height = boundary_layer{ ... }", before, after);
 }
 
 TEST_F(Advice, FewLayersWithLargeGrowthReachTotalHeight) {
@@ -124,17 +124,17 @@ TEST_F(Advice, FewLayersWithLargeGrowthReachTotalHeight) {
     return k_short_can + "local mesh = volume_mesh{ wall, layers = " + std::to_string(layers) +
            ", first_height = 1e-3, total_height = 0.3, farfield = sphere{ radius = 10 } }";
   };
-  expect_mended(Measure::stack_growth, "more layers", checked(script(6)), checked(script(20)));
+  expect_repaired(Measure::stack_growth, "more layers", checked(script(6)), checked(script(20)));
 }
 
 TEST_F(Advice, FacetsTurnedAgainstTheirModel) {
-  const auto told = [&](const std::string& sizes) {
+  const auto reported = [&](const std::string& sizes) {
     return run("local can = cylinder{ {0,0,0}, {2,0,0}, radius=1, name='can' } local wall = surface_mesh{ can, max_edge = 2, " + sizes +
                " } local mesh = volume_mesh{ wall, layers = 3, first_height = 1e-2, farfield = sphere{ radius = 10 } } mesh:check{ wall = wall }");
   };
   EXPECT_THAT(std::string(remedy_of(Measure::cad_normal)), HasSubstr("a smaller chord_error or curvature_angle"));
-  EXPECT_THAT(told("curvature_angle = 70*deg, chord_error = 0.5"), HasSubstr("G18  wall facets against the CAD      warn"));
-  EXPECT_THAT(told("curvature_angle = 15*deg, chord_error = 0.01"), HasSubstr("G18  wall facets against the CAD      pass"));
+  EXPECT_THAT(reported("curvature_angle = 70*deg, chord_error = 0.5"), HasSubstr("G18  wall facets against the CAD      warn"));
+  EXPECT_THAT(reported("curvature_angle = 15*deg, chord_error = 0.01"), HasSubstr("G18  wall facets against the CAD      pass"));
 }
 
 TEST_F(Advice, WallsOffTheirModel) {

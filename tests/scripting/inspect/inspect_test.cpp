@@ -13,7 +13,7 @@
 #include "scripting/values/inspect_surface.h"
 #include "tests/scripting/script_fixture.h"
 #include "tests/support/process.h"
-#include "tests/support/shapes.h"
+#include "tests/support/test_shapes.h"
 
 namespace sterna::scripting {
 namespace {
@@ -51,7 +51,7 @@ TEST_F(InspectFiles, NameATriangleThatWasTurnedOver) {
   EXPECT_EQ(turned->count, 1);
   EXPECT_EQ(turned->severity, volmesh::Severity::note);
   const auto [a, b, c] = corners(mesh, t);
-  EXPECT_LT(distance(turned->places.at(0).position, (a + b + c) / 3.0), 1e-6);
+  EXPECT_LT(distance(turned->locations.at(0).position, (a + b + c) / 3.0), 1e-6);
   EXPECT_TRUE(report.find(FindingKind::not_looked_at));
 }
 
@@ -78,7 +78,7 @@ TEST_F(InspectFiles, RefusedFilesAreReportedAndInspected) {
   const volmesh::InspectReport crowded = inspect(write(fin, "fin.stl"));
   EXPECT_FALSE(crowded.is_ok());
   ASSERT_TRUE(crowded.find(FindingKind::non_manifold));
-  EXPECT_FALSE(crowded.find(FindingKind::non_manifold)->places.empty());
+  EXPECT_FALSE(crowded.find(FindingKind::non_manifold)->locations.empty());
   EXPECT_TRUE(crowded.find(FindingKind::not_looked_at));
   EXPECT_EQ(crowded.mesh.n_triangles(), fin.n_triangles());
 }
@@ -135,7 +135,7 @@ TEST_F(Preparing, HolesAndCrossingsAreRepaired) {
   EXPECT_EQ(hole.forecast.n_fillings, 2);
   EXPECT_THAT(hole.reason, HasSubstr("open along 6 edges around 2 holes"));
   EXPECT_EQ(hole.command, "sterna repair '" + open + "' -o 'open it_repaired.obj'");
-  EXPECT_TRUE(hole.place.has_value());
+  EXPECT_TRUE(hole.location.has_value());
   EXPECT_GT(hole.seconds, 0.0);
   EXPECT_THAT(hole.basis, HasSubstr("190 facets"));
   EXPECT_EQ(done_by_auto(open), "repaired");
@@ -176,10 +176,10 @@ TEST_F(Preparing, NeedlesAskForRemesh) {
   EXPECT_THAT(p.reason, HasSubstr("below 5 deg"));
   EXPECT_THAT(p.command, HasSubstr("sterna remesh "));
   const test::ProcessResult json = sterna({path, "--json"});
-  const Json told = Json::parse(json.output)["preparation"];
-  EXPECT_EQ(told["needed"], "remesh");
-  EXPECT_EQ(told["remesh"], true);
-  EXPECT_DOUBLE_EQ(told["needle_share"].get<double>(), p.needle_share);
+  const Json reported = Json::parse(json.output)["preparation"];
+  EXPECT_EQ(reported["needed"], "remesh");
+  EXPECT_EQ(reported["remesh"], true);
+  EXPECT_DOUBLE_EQ(reported["needle_share"].get<double>(), p.needle_share);
   EXPECT_THAT(sterna({path}).output, HasSubstr("first remesh"));
   EXPECT_THAT(run("local p = inspect('" + path + "').preparation print(p.needed, p.remesh, p.seconds > 0, p.command:sub(1, 13))"),
               HasSubstr("remesh\ttrue\ttrue\tsterna remesh"));

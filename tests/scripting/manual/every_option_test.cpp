@@ -218,15 +218,15 @@ void expect_all_set(const Case& command, bool with_set, const std::filesystem::p
   const auto json = nlohmann::json::parse(result.output);
   for (const Option& option : command.options) {
     const auto& shown = json.at(std::string(option.stage)).at(std::string(option.name));
-    const OptionValue wanted = other_value(option);
+    const OptionValue expected = other_value(option);
     EXPECT_TRUE(std::visit(
         [&]<class V>(const V& value) {
           if constexpr (std::is_constructible_v<nlohmann::json, const V&>) return shown == nlohmann::json(value);
           else return false;
         },
-        wanted))
-        << option.stage << "." << option.name << ": " << shown << " instead of " << text_of(wanted);
-    EXPECT_NE(wanted, option.default_value) << option.name;
+        expected))
+        << option.stage << "." << option.name << ": " << shown << " instead of " << text_of(expected);
+    EXPECT_NE(expected, option.default_value) << option.name;
   }
 }
 

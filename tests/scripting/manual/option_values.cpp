@@ -35,7 +35,8 @@ OptionValue other_value(const Option& option) {
     case OptionKind::boolean: return !std::get<bool>(option.default_value);
     case OptionKind::integer:
       return static_cast<std::int64_t>(other_number(static_cast<double>(std::get<std::int64_t>(option.default_value)), option.min, option.max, true));
-    case OptionKind::text: return option.choices.empty() ? "other" : first_other_word(std::string(option.choices), std::get<std::string>(option.default_value));
+    case OptionKind::string:
+      return option.choices.empty() ? "other" : first_other_word(std::string(option.choices), std::get<std::string>(option.default_value));
     case OptionKind::vector: return Vec3{0.25, 0.5, 0.75};
     case OptionKind::numbers: return std::vector<double>{0.25, 0.5};
     case OptionKind::vectors: return std::vector<Vec3>{{0.25, 0.5, 0.75}};

@@ -110,7 +110,7 @@ TEST_F(Units, CommandOptionsCountInUnitsOfTheirHelp) {
     if (help.empty()) help = sterna({command[0], "--help"}).output;
     // Options that this input does not accept are refused by name; all others must arrive.
     std::vector<std::string> bare = command, with_unit = command;
-    std::map<std::string, double> wanted;
+    std::map<std::string, double> expected;
     const auto show = [&](std::vector<std::string> arguments) {
       arguments.push_back("--show-options");
       return sterna(arguments);
@@ -125,7 +125,7 @@ TEST_F(Units, CommandOptionsCountInUnitsOfTheirHelp) {
     for (const HelpedOption& option : options) {
       bare.push_back("--" + option.name + "=" + text_of_number(option.value));
       with_unit.push_back("--" + option.name + "=" + text_of_number(option.value) + (option.unit == "B" ? "" : option.unit));
-      wanted[std::regex_replace(option.name, std::regex("-"), "_")] = option.value * (option.unit == "deg" ? k_degree : 1.0);
+      expected[std::regex_replace(option.name, std::regex("-"), "_")] = option.value * (option.unit == "deg" ? k_degree : 1.0);
     }
     const test::ProcessResult as_bare = show(bare), as_unit = show(with_unit);
     ASSERT_EQ(as_bare.status, k_exit_success) << as_bare.errors;
@@ -135,13 +135,13 @@ TEST_F(Units, CommandOptionsCountInUnitsOfTheirHelp) {
     const nlohmann::json shown = nlohmann::json::parse(as_bare.output);
     const auto arrived_elsewhere = [&](const std::string& here, const std::string& name) {
       for (const auto& [stage, entries] : shown.items())
-        if (stage != here && entries.contains(name) && entries[name] == nlohmann::json(wanted.at(name))) return true;
+        if (stage != here && entries.contains(name) && entries[name] == nlohmann::json(expected.at(name))) return true;
       return false;
     };
     for (const auto& [stage, entries] : shown.items())
       for (const auto& [name, value] : entries.items()) {
-        const auto found = wanted.find(name);
-        if (found == wanted.end()) continue;
+        const auto found = expected.find(name);
+        if (found == expected.end()) continue;
         // time_limit of read_cad has the same name as an option of the tetrahedra, and the command line means the latter.
         if (value != nlohmann::json(found->second) && arrived_elsewhere(stage, name)) continue;
         EXPECT_EQ(value, nlohmann::json(found->second)) << stage << "." << name;

@@ -64,7 +64,7 @@ class DamagedMeshes : public testing::Test {
 
   /// Checks the mesh and its page; both must name the gate at the place, the verdict as `is_valid` says. A valid mesh warns, and FAILs by the limit \p own of a
   /// user.
-  void expect_failure(const std::string& gate, const std::string& measure, const Point& place, double within, bool is_valid, const std::string& own = "") {
+  void expect_failure(const std::string& gate, const std::string& measure, const Point& location, double within, bool is_valid, const std::string& own = "") {
     io::write_volume_file(mesh_, folder_ / "damaged.sterna", RunContext({.threads = 2}));
     const test::ProcessResult check = test::run_process(test::sterna_program(), {"--quiet", "check", "damaged.sterna", "--json"}, folder_);
     EXPECT_EQ(check.status, is_valid ? k_exit_success : k_exit_invalid) << check.errors;
@@ -74,7 +74,7 @@ class DamagedMeshes : public testing::Test {
     const Json report = Json::parse(check.output);
     EXPECT_EQ(report["verdict"], is_valid ? "VALID" : "INVALID");
     double nearest = std::numeric_limits<double>::infinity();
-    const auto look_at = [&](const Json& p) { nearest = std::min(nearest, distance(place, Point{p[0], p[1], p[2]})); };
+    const auto look_at = [&](const Json& p) { nearest = std::min(nearest, distance(location, Point{p[0], p[1], p[2]})); };
     if (is_valid) {
       for (const Json& entry : report["measures"]) {
         if (entry["measure"] != measure) continue;
@@ -88,7 +88,7 @@ class DamagedMeshes : public testing::Test {
         if (finding["violation"] == measure) look_at(finding["position"]);
     }
     EXPECT_LT(nearest, within) << gate << " " << measure;
-    if (!report_page().empty()) expect_in_page(gate, measure, place, within, is_valid);
+    if (!report_page().empty()) expect_in_page(gate, measure, location, within, is_valid);
     else if (test::is_all_required()) ADD_FAILURE() << "STERNA_REQUIRE_DATA=1, but this build has no report page";
   }
 
@@ -101,7 +101,7 @@ class DamagedMeshes : public testing::Test {
     return mesh;
   }
 
-  void expect_in_page(const std::string& gate, const std::string& measure, const Point& place, double within, bool is_valid) {
+  void expect_in_page(const std::string& gate, const std::string& measure, const Point& location, double within, bool is_valid) {
     const test::ProcessResult made = test::run_process(test::sterna_program(), {"--quiet", "report", "damaged.sterna", "-o", "damaged.html"}, folder_);
     EXPECT_EQ(made.status, is_valid ? k_exit_success : k_exit_invalid) << made.errors;
     const Json page = test::page_json(folder_ / "damaged.html");
@@ -110,7 +110,7 @@ class DamagedMeshes : public testing::Test {
     for (const Json& found : page["places"]) {
       if (found["gate"] != gate || found["measure"] != measure) continue;
       EXPECT_EQ(found["state"], is_valid ? "warn" : "invalid");
-      nearest = std::min(nearest, distance(place, Point{found["at"][0], found["at"][1], found["at"][2]}));
+      nearest = std::min(nearest, distance(location, Point{found["at"][0], found["at"][1], found["at"][2]}));
     }
     EXPECT_LT(nearest, within) << gate << " " << measure << " in the page";
   }
@@ -118,18 +118,18 @@ class DamagedMeshes : public testing::Test {
 
 TEST_F(DamagedMeshes, FlippedPrism) {
   auto& prism = mesh_.prisms[mesh_.prisms.size() / 2];
-  const Point place = middle_of(mesh_, prism);
+  const Point location = middle_of(mesh_, prism);
   const double within = reach_of(mesh_, prism);
   for (std::size_t k = 0; k < 3; ++k) std::swap(prism[k], prism[k + 3]);
-  expect_failure("G3", "invalid_cell", place, within, false);
+  expect_failure("G3", "invalid_cell", location, within, false);
 }
 
 TEST_F(DamagedMeshes, Hole) {
   const std::size_t hole = mesh_.prisms.size() / 3;
-  const Point place = middle_of(mesh_, mesh_.prisms[hole]);
+  const Point location = middle_of(mesh_, mesh_.prisms[hole]);
   const double within = reach_of(mesh_, mesh_.prisms[hole]);
   mesh_.prisms.erase(mesh_.prisms.begin() + static_cast<std::ptrdiff_t>(hole));
-  expect_failure("G1", "unmatched_face", place, within, false);
+  expect_failure("G1", "unmatched_face", location, within, false);
 }
 
 /// The faces around a node of the curved wing get the marker of a symmetry plane.

@@ -12,7 +12,7 @@
 #include "tests/scripting/report/page_json.h"
 #include "tests/scripting/script_fixture.h"
 #include "tests/support/data.h"
-#include "tests/support/shapes.h"
+#include "tests/support/test_shapes.h"
 
 namespace sterna::scripting {
 namespace {

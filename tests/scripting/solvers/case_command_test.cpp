@@ -8,7 +8,7 @@
 #include "tests/support/error_of.h"
 #include "tests/support/hybrid_shapes.h"
 #include "tests/support/process.h"
-#include "tests/support/shapes.h"
+#include "tests/support/test_shapes.h"
 
 namespace sterna::scripting {
 namespace {
@@ -76,10 +76,10 @@ TEST_F(CaseCommands, ReportMistakesBeforeReadingTheMesh) {
       {{"su2-config", "none.su2", "-o", "a.cfg", "--reynolds", "1e6", "--length", "1"}, "Mach number is unknown"},
       {{"su2-config", "none.su2", "-o", "a.cfg", "--mach", "0.5", "--altitude", "0", "--length", "1", "--reference-area", "1", "--mesh", "a.vtu"}, "SU2 reads"},
       {{"foam-caes", "none.sterna"}, "did you mean foam-case?"}};
-  for (const auto& [arguments, told] : cases) {
+  for (const auto& [arguments, reported] : cases) {
     const test::ProcessResult result = sterna(arguments);
     EXPECT_EQ(result.status, k_exit_usage) << result.errors;
-    EXPECT_THAT(result.errors, AllOf(HasSubstr(told), Not(HasSubstr("none.sterna:")))) << arguments.back();
+    EXPECT_THAT(result.errors, AllOf(HasSubstr(reported), Not(HasSubstr("none.sterna:")))) << arguments.back();
   }
   EXPECT_FALSE(std::filesystem::exists(folder_ / "case"));
 }
@@ -89,8 +89,9 @@ TEST_F(CaseCommands, KindsOfPatchesAreThoseOfTheCase) {
       ", reynolds = 100, length = 1, model = 'laminar', monitor = 'wall', kinds = { ['w*'] = 'symmetry', wall = 'slip', farfield = 'inflow' } }\nprint(m)");
   EXPECT_THAT(text_of("slips/0/U"), AllOf(HasSubstr("type slip"), Not(HasSubstr("noSlip")), Not(HasSubstr("freestream")), HasSubstr("type fixedValue")));
   EXPECT_THAT(text_of("slips/constant/polyMesh/boundary"), Not(HasSubstr("type wall")));
-  const std::string told = error("read_mesh(" + out("ball.sterna") + "):foam_case{ " + out("no") + ", reynolds = 100, length = 1, kinds = { top = 'slip' } }");
-  EXPECT_THAT(told, AllOf(HasSubstr("case.lua:1: mesh:foam_case"), HasSubstr("kinds[\"top\"]"), HasSubstr("names are farfield, wall")));
+  const std::string reported =
+      error("read_mesh(" + out("ball.sterna") + "):foam_case{ " + out("no") + ", reynolds = 100, length = 1, kinds = { top = 'slip' } }");
+  EXPECT_THAT(reported, AllOf(HasSubstr("case.lua:1: mesh:foam_case"), HasSubstr("kinds[\"top\"]"), HasSubstr("names are farfield, wall")));
   EXPECT_THAT(error("read_mesh(" + out("ball.sterna") + "):su2_config{ " + out("no.cfg") +
                     ", mach = 0.5, altitude = 0, length = 1, reference_area = 1, kinds = { 'slip', wall = 3 } }"),
               HasSubstr("kinds: expected a table with names of patches as keys"));

@@ -16,7 +16,7 @@
 #include "tests/support/hybrid_shapes.h"
 #include "tests/support/openfoam_tools.h"
 #include "tests/support/process.h"
-#include "tests/support/shapes.h"
+#include "tests/support/test_shapes.h"
 
 namespace sterna::scripting {
 namespace {
@@ -140,9 +140,9 @@ TEST_F(FoamCases, ForcesAreThoseOfTheFlow) {
 TEST_F(FoamCases, RunHasStagesAndEndsWhenForcesSettle) {
   if (!has_openfoam()) GTEST_SKIP() << "needs the Debian package openfoam";
   run(with_mesh("m:foam_case{ " + at("case") + ", flow{ reynolds = 100, length = 2 }, model = 'laminar', reference_area = math.pi, iterations = 1200 }"));
-  const std::string told = run_case("case");
-  EXPECT_THAT(told, AllOf(HasSubstr("running potentialFoam"), HasSubstr("second order from iteration"),
-                          testing::ContainsRegex("settled at iteration|residuals are below")));
+  const std::string reported = run_case("case");
+  EXPECT_THAT(reported, AllOf(HasSubstr("running potentialFoam"), HasSubstr("second order from iteration"),
+                              testing::ContainsRegex("settled at iteration|residuals are below")));
   EXPECT_THAT(text_of("case/system/stage"), HasSubstr("linearUpwind"));
   EXPECT_THAT(text_of("case/0/U"), HasSubstr("internalField uniform")) << "fluxes alone are those of potentialFoam";
   int n_results = 0;
@@ -182,14 +182,15 @@ TEST_P(DivergingRuns, StopAndNameThePlace) {
   const test::ProcessResult result = test::run_process(folder_ / "case" / "Allrun", {}, folder_);
   EXPECT_NE(result.status, 0);
   std::smatch found;
-  const std::string told = result.output;
-  ASSERT_TRUE(std::regex_search(told, found, std::regex(R"(diverged: the largest velocity is \S+ m/s at iteration (\d+).*first at \((\S+), (\S+), (\S+)\) m)")))
-      << told;
+  const std::string reported = result.output;
+  ASSERT_TRUE(
+      std::regex_search(reported, found, std::regex(R"(diverged: the largest velocity is \S+ m/s at iteration (\d+).*first at \((\S+), (\S+), (\S+)\) m)")))
+      << reported;
   EXPECT_LE(std::stoi(found[1]), 20);
   if (std::string(GetParam()) == "1e100") EXPECT_LT(std::stoi(found[1]), 15) << "judged from the first iteration on, because the solver failed";
   const Vec3 off{std::stod(found[2]) - 1.5, std::stod(found[3]), std::stod(found[4])};
-  EXPECT_LT(norm(off), 1.0) << told;  // the zone's radius is 0.5 m, and what is pushed flows out of it
-  EXPECT_THAT(told, HasSubstr("sterna draw"));
+  EXPECT_LT(norm(off), 1.0) << reported;  // the zone's radius is 0.5 m, and what is pushed flows out of it
+  EXPECT_THAT(reported, HasSubstr("sterna draw"));
 }
 
 INSTANTIATE_TEST_SUITE_P(Forces, DivergingRuns, testing::Values("1e4", "1e100"));
@@ -201,7 +202,7 @@ TEST(FoamRun, SettledForcesAreDistinguishedFromMovingForces) {
   const std::filesystem::path folder = test::scratch() / "foam_judge";
   std::filesystem::create_directories(folder);
   io::write_whole(folder / "judge.awk", judge);
-  const auto told = [&](const std::string& values, const std::vector<std::string>& options) {
+  const auto reported = [&](const std::string& values, const std::vector<std::string>& options) {
     io::write_whole(folder / "values.dat", "# Time\n" + values);
     std::vector<std::string> arguments = {"-f", "judge.awk"};
     for (const std::string& option : options) arguments.insert(arguments.end(), {"-v", option});
@@ -216,9 +217,9 @@ TEST(FoamRun, SettledForcesAreDistinguishedFromMovingForces) {
     thrown += std::to_string(i) + "\tmag(U)\t0\t(0 0 0)\t" + std::to_string(i < 30 ? 70.0 : 70.0 * i) + "\t(1.5 " + std::to_string(i) + " 3)\n";
   }
   const std::vector<std::string> settled = {"what=settled", "window=40", "share=0.01"};
-  EXPECT_THAT(told(still, settled), testing::StartsWith("settled 0.1"));
-  EXPECT_THAT(told(moving, settled), testing::StartsWith("moving"));
-  EXPECT_THAT(told(still.substr(0, 200), settled), testing::StartsWith("short"));
+  EXPECT_THAT(reported(still, settled), testing::StartsWith("settled 0.1"));
+  EXPECT_THAT(reported(moving, settled), testing::StartsWith("moving"));
+  EXPECT_THAT(reported(still.substr(0, 200), settled), testing::StartsWith("short"));
   // Drag that moves by 2 % beside a lift ten times as large, and a side force (half models have one) that does not count.
   std::string drifting, pushed;
   for (int i = 1; i <= 60; ++i) {
@@ -226,19 +227,20 @@ TEST(FoamRun, SettledForcesAreDistinguishedFromMovingForces) {
     pushed += std::to_string(i) + "\t(10 " + std::to_string(1000.0 + 10.0 * i) + " 100)\t(1 1 1)\t(1 1 1)\n";
   }
   const std::vector<std::string> of_wings = {"what=settled", "window=40", "share=0.01", "drag=1 0 0", "lift=0 0 1"};
-  EXPECT_THAT(told(drifting, of_wings), testing::StartsWith("moving 1.8"));
-  EXPECT_THAT(told(pushed, of_wings), testing::StartsWith("settled 0"));
-  EXPECT_THAT(told(still, of_wings), testing::StartsWith("settled 0.1"));
-  EXPECT_EQ(told(thrown, {"what=bounded", "limit=4000", "first=2000", "from=5"}), "diverged 58 4060.000000 30 1.5 30 3\n");
-  EXPECT_EQ(told(thrown, {"what=bounded", "limit=1e9", "first=1e8", "from=5"}), "bounded\n");
+  EXPECT_THAT(reported(drifting, of_wings), testing::StartsWith("moving 1.8"));
+  EXPECT_THAT(reported(pushed, of_wings), testing::StartsWith("settled 0"));
+  EXPECT_THAT(reported(still, of_wings), testing::StartsWith("settled 0.1"));
+  EXPECT_EQ(reported(thrown, {"what=bounded", "limit=4000", "first=2000", "from=5"}), "diverged 58 4060.000000 30 1.5 30 3\n");
+  EXPECT_EQ(reported(thrown, {"what=bounded", "limit=1e9", "first=1e8", "from=5"}), "bounded\n");
   const std::vector<std::string> of_gas = {"what=bounded", "limit=4000", "first=2000", "from=5", "many=25"};
-  EXPECT_EQ(told(thrown, of_gas), "touched 3 1.5 60 3\n") << "3 of the last 50 iterations exceed the limit";
+  EXPECT_EQ(reported(thrown, of_gas), "touched 3 1.5 60 3\n") << "3 of the last 50 iterations exceed the limit";
   std::string stuck;
   for (int i = 1; i <= 80; ++i) stuck += std::to_string(i) + "\tmag(U)\t0\t(0 0 0)\t" + std::to_string(i < 40 ? 70.0 : 5000.0) + "\t(1 2 3)\n";
-  EXPECT_EQ(told(stuck, of_gas), "diverged 40 5000.000000 40 1 2 3\n");
+  EXPECT_EQ(reported(stuck, of_gas), "diverged 40 5000.000000 40 1 2 3\n");
   // A run in parts: with the processor behind each place, and a value that is no number.
-  EXPECT_EQ(told("7\tmag(U)\t0\t(0 0 0)\t3\t68\t(1 2 3)\t0\n8\tmag(U)\t0\t(0 0 0)\t3\tnan\t(4 5 6)\t1\n", {"what=bounded", "limit=700", "first=350", "from=0"}),
-            "diverged 8 nan 8 4 5 6\n");
+  EXPECT_EQ(
+      reported("7\tmag(U)\t0\t(0 0 0)\t3\t68\t(1 2 3)\t0\n8\tmag(U)\t0\t(0 0 0)\t3\tnan\t(4 5 6)\t1\n", {"what=bounded", "limit=700", "first=350", "from=0"}),
+      "diverged 8 nan 8 4 5 6\n");
 }
 
 /// A run that was stopped while potentialFoam had its own fields in 0/: the next Allrun and Allclean put back those of the case first.
@@ -285,7 +287,7 @@ TEST(FoamRun, CorrectionsFollowFromTheMesh) {
   const HybridMesh mesh = test::box_of_patches({{"body", PatchKind::wall}, {"far", PatchKind::farfield}});
   const volmesh::FlowState flow = volmesh::flow_state({.length = 1.0, .mach = 0.2, .altitude = 0.0});
   const auto made = [&](double degrees) {
-    return foam_case(mesh, {.model = "SpalartAllmaras"}, {}, flow, {.area = 1.0}, {}, RunContext(), {.worst = degrees * k_degree, .place = Point{1, 2, 3}});
+    return foam_case(mesh, {.model = "SpalartAllmaras"}, {}, flow, {.area = 1.0}, {}, RunContext(), {.worst = degrees * k_degree, .location = Point{1, 2, 3}});
   };
   EXPECT_THAT(file_of(made(60), "system/stage.final"), HasSubstr("correction corrected;"));
   EXPECT_THAT(file_of(made(75), "system/stage.final"), HasSubstr("correction limited corrected 0.5;"));
@@ -347,8 +349,8 @@ TEST_F(FoamCases, MeshesAloneHaveTheZonesOfSources) {
 }
 
 TEST_F(FoamCases, MistakesAreToldTogetherAtTheirLine) {
-  const std::string told = error(with_mesh("m:foam_case{ " + at("case") + ", reynolds = 1e6, length = 1, model = 'kEpsilon', taks = 3 }"));
-  EXPECT_THAT(told, AllOf(HasSubstr("case.lua:2: mesh:foam_case"), HasSubstr("kOmegaSST"), HasSubstr("did you mean \"tasks\"?")));
+  const std::string reported = error(with_mesh("m:foam_case{ " + at("case") + ", reynolds = 1e6, length = 1, model = 'kEpsilon', taks = 3 }"));
+  EXPECT_THAT(reported, AllOf(HasSubstr("case.lua:2: mesh:foam_case"), HasSubstr("kOmegaSST"), HasSubstr("did you mean \"tasks\"?")));
   EXPECT_THAT(error(with_mesh("m:foam_case{ " + at("case") + ", reynolds = 1e6, length = 1, compressible = 'yes' }")), HasSubstr("state of the gas"));
   EXPECT_THAT(error(with_mesh("m:foam_case{ " + at("case") + ", reynolds = 1e6, length = 1, boundaries = { prop = { thrust = 3 } } }")),
               HasSubstr("is called \"prop\""));

@@ -62,7 +62,7 @@ std::map<std::string, PatchKind> kinds_of(const HybridMesh& mesh) {
 }
 
 TEST_F(MeshManifest, BringsKindsBackFromEveryFormat) {
-  const auto wanted = kinds_of(duct().mesh);
+  const auto expected = kinds_of(duct().mesh);
   int n = 0;
   for (const io::Format& format : io::formats()) {
     if (!format.write_volume || !format.read_volume) continue;
@@ -73,8 +73,8 @@ TEST_F(MeshManifest, BringsKindsBackFromEveryFormat) {
     const MeshValue read = read_mesh({path.string(), path}, RunContext());
     auto kinds = kinds_of(read.mesh);
     if (format.name == "OpenFOAM")
-      for (const char* side : {"left", "right"}) kinds[side] = wanted.at(side);  // cyclic there
-    EXPECT_EQ(kinds, wanted);
+      for (const char* side : {"left", "right"}) kinds[side] = expected.at(side);  // cyclic there
+    EXPECT_EQ(kinds, expected);
     EXPECT_EQ(read.mesh.periodic.size(), 1u);
     EXPECT_TRUE(read.unknown_kinds.empty());
     ++n;

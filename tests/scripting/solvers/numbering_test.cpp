@@ -9,7 +9,7 @@
 #include "tests/scripting/script_fixture.h"
 #include "tests/support/error_of.h"
 #include "tests/support/process.h"
-#include "tests/support/shapes.h"
+#include "tests/support/test_shapes.h"
 
 namespace sterna::scripting {
 namespace {

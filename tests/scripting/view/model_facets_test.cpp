@@ -38,7 +38,7 @@ FacetMeasures measures_of(const ModelFacets& facets) {
       ++edges[{low[0], low[1], low[2], high[0], high[1], high[2]}];
     }
   }
-  for (const auto& [places, n] : edges) m.n_open += n != 2;
+  for (const auto& [locations, n] : edges) m.n_open += n != 2;
   return m;
 }
 

@@ -1,4 +1,4 @@
-#include "surfmesh/face/face_mesh.h"
+#include "surfmesh/face/sized_face_mesh.h"
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
@@ -15,8 +15,8 @@
 #include "geom/math/predicates.h"
 #include "geom/model/analytic_surfaces.h"
 #include "surfmesh/face/face_sizes.h"
-#include "tests/support/constants.h"
 #include "tests/support/face_shapes.h"
+#include "tests/support/test_constants.h"
 #include "tests/support/triangle_quality.h"
 
 namespace sterna::surfmesh {
@@ -92,7 +92,7 @@ TEST_P(Shapes, AreSoundAndWellShaped) {
     const FaceMesh mesh = mesh_shape(shape, shape.size / factor);
     expect_sound(mesh, *shape.surface, border);
     EXPECT_LE(mesh.report.n_outside_20_130, shape.n_narrow)
-        << "angles " << mesh.report.min_angle / k_degree << " .. " << mesh.report.max_angle / k_degree << " at " << format_point(mesh.report.worst_place);
+        << "angles " << mesh.report.min_angle / k_degree << " .. " << mesh.report.max_angle / k_degree << " at " << format_point(mesh.report.worst_location);
     // Number of equilateral triangles of the target edge length that cover the face; 0.75 of this number corresponds to edges 15 % longer.
     const double ideal = area_of(mesh) / (0.25 * std::numbers::sqrt3 * shape.size * shape.size / (factor * factor));
     EXPECT_GT(static_cast<double>(mesh.triangles.size()), 0.75 * ideal);
@@ -169,7 +169,7 @@ TEST(FaceMesh, SizesGrowFromAFinePlace) {
       k_plane, border, [](Uv, const Point& p) { return 0.005 + 0.2 * std::abs(norm(p) - 0.05); }, {}, k_context);
   expect_sound(mesh, k_plane, border);
   EXPECT_EQ(mesh.report.n_outside_20_130, 0) << mesh.report.min_angle / k_degree << " .. " << mesh.report.max_angle / k_degree
-                                             << format_point(mesh.report.worst_place);
+                                             << format_point(mesh.report.worst_location);
   EXPECT_LT(mesh.triangles.size(), 6000u);
 }
 
@@ -250,7 +250,7 @@ TEST(FaceMesh, BordersThatCrossAreAnErrorInSpace) {
     FAIL() << "no error";
   } catch (const Error& error) {
     EXPECT_EQ(error.code(), ErrorCode::self_intersection);
-    EXPECT_FALSE(error.info().places.empty());
+    EXPECT_FALSE(error.info().locations.empty());
     EXPECT_THAT(error.what(), testing::HasSubstr("border of a face"));
   }
 }

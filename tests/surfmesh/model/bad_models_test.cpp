@@ -17,9 +17,9 @@
 #include "geom/model/shapes.h"
 #include "io/file/cad_file.h"
 #include "surfmesh/model/surface_mesh.h"
-#include "tests/support/constants.h"
 #include "tests/support/data.h"
 #include "tests/support/model_meshes.h"
+#include "tests/support/test_constants.h"
 
 namespace sterna::surfmesh {
 namespace {
@@ -75,10 +75,10 @@ TEST(BadModels, OverlappingSolidsRequireUnion) {
   const Model model = both(a, b);
   const ErrorInfo info = failure_of(model, edges_and_crossings(0.2));
   EXPECT_EQ(info.code, ErrorCode::self_intersection);
-  ASSERT_EQ(info.places.size(), 4u);  // the four long sides of the bar through the side x = 1
-  for (const ErrorPlace& place : info.places) {
-    EXPECT_NEAR(place.position.x, 1.0, 1e-12);
-    EXPECT_THAT(place.what, AllOf(HasSubstr("\"left\""), HasSubstr("\"right\"")));
+  ASSERT_EQ(info.locations.size(), 4u);  // the four long sides of the bar through the side x = 1
+  for (const ErrorLocation& location : info.locations) {
+    EXPECT_NEAR(location.position.x, 1.0, 1e-12);
+    EXPECT_THAT(location.what, AllOf(HasSubstr("\"left\""), HasSubstr("\"right\"")));
   }
   EXPECT_THAT(info.hint, AllOf(HasSubstr("union{"), HasSubstr("crossings = \"warn\""), Not(HasSubstr("repair the faces"))));
   EXPECT_FALSE(info.geometry.triangles.empty());
@@ -136,7 +136,7 @@ TEST(BadModels, AbsurdSizesEndAtOnceWithTheirCount) {
   EXPECT_EQ(info.code, ErrorCode::overflow);
   // 6 m^2 of triangles of 0.433e-10 m^2.
   EXPECT_THAT(info.problem, AllOf(HasSubstr("1.4e+11"), HasSubstr("max_triangles")));
-  EXPECT_THAT(info.places.front().what, HasSubstr("crate"));
+  EXPECT_THAT(info.locations.front().what, HasSubstr("crate"));
   EXPECT_THAT(info.hint, HasSubstr("units"));
 }
 
@@ -212,7 +212,7 @@ TEST(BadModels, FacesAroundAPeriodNeedNoSeam) {
     EXPECT_NEAR(volume, std::numbers::pi * 0.25 * 3.0, 0.035 * 2.356);
     // The vertices on the seam belong to the face: they are on no edge, and on the surface.
     for (const VertexId v : mesh.mesh.points.ids())
-      EXPECT_LT(distance(model.faces[mesh.places[v].face].surface->point(mesh.places[v].at), mesh.mesh.points[v]), 1e-12);
+      EXPECT_LT(distance(model.faces[mesh.locations[v].face].surface->point(mesh.locations[v].at), mesh.mesh.points[v]), 1e-12);
   }
 }
 
@@ -327,9 +327,9 @@ void expect_loops_of_free_edges(const Model& model, const SurfaceMesh& surface) 
   std::map<EdgeId, std::map<double, VertexId>> along;
   std::map<std::array<double, 3>, std::vector<VertexId>> corners;
   for (const VertexId v : mesh.points.ids()) {
-    const EdgePlace& place = surface.edge_places[v];
+    const EdgeLocation& location = surface.edge_locations[v];
     const Point& p = mesh.points[v];
-    if (place.edge.is_valid()) along[place.edge][place.t] = v;
+    if (location.edge.is_valid()) along[location.edge][location.t] = v;
     else corners[{p.x, p.y, p.z}].push_back(v);
   }
   std::size_t n = 0;
@@ -378,8 +378,8 @@ TEST(BadModels, FoldedSurfaceIsNamedWithLocation) {
   options.curvature_angle = 0.4;
   const ErrorInfo info = failure_of(io::read_cad(test::shared_data() / "cad" / "tigl_nacelle_nacelle.stp", {}, k_context).model, options);
   EXPECT_EQ(info.code, ErrorCode::self_intersection);
-  EXPECT_NEAR(std::abs(info.places.front().position.y), 0.511, 0.005);
-  EXPECT_THAT(info.places.front().what, HasSubstr("folds"));
+  EXPECT_NEAR(std::abs(info.locations.front().position.y), 0.511, 0.005);
+  EXPECT_THAT(info.locations.front().what, HasSubstr("folds"));
   EXPECT_THAT(info.hint, AllOf(HasSubstr("repair the faces"), Not(HasSubstr("union{"))));
 }
 

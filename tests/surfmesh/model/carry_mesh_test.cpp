@@ -13,7 +13,7 @@
 #include "geom/model/components.h"
 #include "geom/model/deform.h"
 #include "geom/model/shapes.h"
-#include "tests/support/constants.h"
+#include "tests/support/test_constants.h"
 
 namespace sterna::surfmesh {
 namespace {
@@ -82,7 +82,7 @@ TEST(CarryMesh, FollowsBendWithSameTrianglesOnNewSurface) {
     const StructuredMesh from = mesh_of(model);
     const Model to = bent(model, 0.03);
     const CarriedMesh result = carried(from, to);
-    ASSERT_TRUE(result.mesh) << result.objection << format_point(result.place);
+    ASSERT_TRUE(result.mesh) << result.objection << format_point(result.location);
     EXPECT_EQ(result.mesh->mesh.triangles.raw(), from.mesh.mesh.triangles.raw());
     for (const VertexId v : from.mesh.mesh.points.ids()) {
       const Point p = from.mesh.mesh.points[v];
@@ -96,7 +96,7 @@ TEST(CarryMesh, FollowsBendWithSameTrianglesOnNewSurface) {
 TEST(CarryMesh, FollowsATwistedWing) {
   const StructuredMesh from = mesh_of(twisted_wing(0.0));
   const CarriedMesh result = carried(from, twisted_wing(0.07));
-  ASSERT_TRUE(result.mesh) << result.objection << format_point(result.place);
+  ASSERT_TRUE(result.mesh) << result.objection << format_point(result.location);
   EXPECT_EQ(result.mesh->mesh.triangles.raw(), from.mesh.mesh.triangles.raw());
   double most = 0.0;
   for (const VertexId v : from.mesh.mesh.points.ids()) most = std::max(most, distance(result.mesh->mesh.points[v], from.mesh.mesh.points[v]));
@@ -108,7 +108,7 @@ TEST(CarryMesh, IsRefusedWithLocationOfBadTriangles) {
   const CarriedMesh result = carried(from, bent(twisted_wing(0.0), 1.0));
   EXPECT_FALSE(result.mesh);
   EXPECT_THAT(result.objection, HasSubstr("would "));
-  EXPECT_GT(std::abs(result.place.y), 1.0);  // at the tips, where the bending is largest
+  EXPECT_GT(std::abs(result.location.y), 1.0);  // at the tips, where the bending is largest
   const CarriedMesh long_wing = carried(from, deformed(twisted_wing(0.0),
                                                        std::make_shared<FunctionMap>(
                                                            [](const Point& p) {

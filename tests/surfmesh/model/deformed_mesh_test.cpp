@@ -12,7 +12,7 @@
 #include "io/file/cad_file.h"
 #include "surfmesh/model/surface_mesh.h"
 #include "tests/support/data.h"
-#include "tests/support/shapes.h"
+#include "tests/support/test_shapes.h"
 
 namespace sterna::surfmesh {
 namespace {
@@ -40,7 +40,7 @@ Vec3 normal_of(const TriMesh& mesh, TriangleId t) {
 /// Returns the same mesh evaluated on another model with the same faces.
 TriMesh reevaluated(const SurfaceMesh& surface, const Model& model) {
   TriMesh result = surface.mesh;
-  for (const VertexId v : result.points.ids()) result.points[v] = model.faces[surface.places[v].face].surface->point(surface.places[v].at);
+  for (const VertexId v : result.points.ids()) result.points[v] = model.faces[surface.locations[v].face].surface->point(surface.locations[v].at);
   return result;
 }
 
@@ -80,8 +80,8 @@ TEST(DeformedMesh, FoldingDisplacementsAreRefusedWithLocation) {
   } catch (const Error& error) {
     EXPECT_EQ(error.code(), ErrorCode::self_intersection);
     EXPECT_THAT(error.what(), testing::HasSubstr("folds space"));
-    ASSERT_FALSE(error.info().places.empty());
-    EXPECT_NEAR(error.info().places[0].position.y, 1.2, 0.5);
+    ASSERT_FALSE(error.info().locations.empty());
+    EXPECT_NEAR(error.info().locations[0].position.y, 1.2, 0.5);
   }
 }
 

@@ -10,9 +10,9 @@
 #include "geom/model/components.h"
 #include "geom/model/shapes.h"
 #include "io/file/cad_file.h"
-#include "tests/support/constants.h"
 #include "tests/support/data.h"
 #include "tests/support/model_meshes.h"
+#include "tests/support/test_constants.h"
 #include "tests/surfmesh/model/edges_of.h"
 
 namespace sterna::surfmesh {
@@ -72,9 +72,9 @@ TEST(Deviation, MovedNodeAndTurnedFacetAreMeasured) {
     EXPECT_NEAR(d.distance.worst * d.length, std::abs(off), 1e-12);
     EXPECT_EQ(d.distance.state, GateState::fail);
     EXPECT_EQ(d.distance.n_beyond_hard, 1);
-    ASSERT_EQ(d.distance.places.size(), 1u);
-    EXPECT_EQ(d.distance.places[0].position, moved.points[v]);
-    EXPECT_THAT(d.distance.places[0].what,
+    ASSERT_EQ(d.distance.locations.size(), 1u);
+    EXPECT_EQ(d.distance.locations[0].position, moved.points[v]);
+    EXPECT_THAT(d.distance.locations[0].what,
                 AllOf(HasSubstr("node " + std::to_string(v.value()) + ", patch ball"), HasSubstr("m off face \"ball\" of the model")));
   }
   TriMesh turned = ball.surface.mesh;
@@ -84,7 +84,7 @@ TEST(Deviation, MovedNodeAndTurnedFacetAreMeasured) {
   EXPECT_EQ(d.distance.state, GateState::pass);
   EXPECT_EQ(d.normal.n_beyond_hard, 1);
   EXPECT_GT(d.normal.worst, 170 * k_degree);
-  EXPECT_THAT(d.normal.places[0].what, HasSubstr("triangle " + std::to_string(t.value()) + ", patch ball"));
+  EXPECT_THAT(d.normal.locations[0].what, HasSubstr("triangle " + std::to_string(t.value()) + ", patch ball"));
 }
 
 TEST(Deviation, FacesEndAtTheirBorders) {
@@ -136,15 +136,15 @@ TEST(Deviation, SharpTrailingEdgesCompareEachSideWithItself) {
   // the shortest edge.
   EXPECT_LT(d.normal.worst, 45 * k_degree);
   EXPECT_GT(d.normal.share_within, 0.998);  // 0.9988 here: the strips
-  for (const GatePlace& place : d.normal.places) EXPECT_GT(std::abs(place.position.y), 3.0) << place.what;
+  for (const GateLocation& location : d.normal.locations) EXPECT_GT(std::abs(location.position.y), 3.0) << location.what;
   // The result is the same for any number of threads.
   for (const int threads : {2, 7}) {
     const Deviation other = made.measure(made.surface.mesh, RunContext({.threads = threads}));
     EXPECT_EQ(other.distance.worst, d.distance.worst);
     EXPECT_EQ(other.normal.worst, d.normal.worst);
     EXPECT_EQ(other.normal.share_within, d.normal.share_within);
-    ASSERT_EQ(other.normal.places.size(), d.normal.places.size());
-    for (std::size_t i = 0; i < d.normal.places.size(); ++i) EXPECT_EQ(other.normal.places[i].what, d.normal.places[i].what);
+    ASSERT_EQ(other.normal.locations.size(), d.normal.locations.size());
+    for (std::size_t i = 0; i < d.normal.locations.size(); ++i) EXPECT_EQ(other.normal.locations[i].what, d.normal.locations[i].what);
   }
 }
 
@@ -172,14 +172,14 @@ TEST(Deviation, OfRealCad) {
     TriMesh moved = made.surface.mesh;
     const double off = 1e-4 * d.length;
     for (const VertexId v : moved.points.ids()) {
-      if (made.surface.edge_places[v].edge.is_valid() || v.index() < moved.n_vertices() / 2) continue;
-      const VertexPlace& place = made.surface.places[v];
-      const SurfaceDerivatives at = made.model.faces[place.face].surface->derivatives(place.at);
+      if (made.surface.edge_locations[v].edge.is_valid() || v.index() < moved.n_vertices() / 2) continue;
+      const VertexLocation& location = made.surface.locations[v];
+      const SurfaceDerivatives at = made.model.faces[location.face].surface->derivatives(location.at);
       moved.points[v] += off * normalized(cross(at.du, at.dv));
       const Deviation found = made.measure(moved);
       EXPECT_NEAR(found.distance.worst, 1e-4, 1e-7);
       EXPECT_EQ(found.distance.n_beyond_hard, 1);
-      EXPECT_THAT(found.distance.places.front().what, HasSubstr("node " + std::to_string(v.value()) + ","));
+      EXPECT_THAT(found.distance.locations.front().what, HasSubstr("node " + std::to_string(v.value()) + ","));
       break;
     }
   }

@@ -17,10 +17,10 @@
 #include "surfmesh/model/model_sizes.h"
 #include "surfmesh/model/model_wall.h"
 #include "surfmesh/model/surface_mesh.h"
-#include "tests/support/constants.h"
 #include "tests/support/data.h"
 #include "tests/support/model_meshes.h"
-#include "tests/support/shapes.h"
+#include "tests/support/test_constants.h"
+#include "tests/support/test_shapes.h"
 #include "tests/surfmesh/model/edges_of.h"
 
 namespace sterna::surfmesh {
@@ -307,14 +307,14 @@ TEST(MeshModel, TooSmallChordErrorIsRefusedAtOnce) {
 }
 
 TEST(BackgroundSizes, IsTheLeastOfItsSources) {
-  std::vector<SizeSite> sources;
+  std::vector<SizePoint> sources;
   for (int i = 0; i < 200; ++i)
     sources.push_back({{std::sin(12.9898 * i), std::sin(78.233 * i), std::sin(37.719 * i)}, 0.05 + 0.1 * std::abs(std::sin(4.1 * i))});
   const BackgroundSizes field(sources, 0.2, 1.0, k_context);
   for (int i = 0; i < 100; ++i) {
     const Point p{2 * std::sin(1.3 * i), 2 * std::sin(2.7 * i), 2 * std::sin(3.9 * i)};
     double exact = 0.3;
-    for (const SizeSite& s : sources) exact = std::min(exact, s.size + 0.2 * distance(p, s.point));
+    for (const SizePoint& s : sources) exact = std::min(exact, s.size + 0.2 * distance(p, s.point));
     EXPECT_GE(field(p, 0.3), exact);
     // Sources of one cell are merged to the smallest one, which is at most the cell's diagonal away.
     EXPECT_LE(field(p, 0.3), 1.35 * exact);

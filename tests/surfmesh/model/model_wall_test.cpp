@@ -14,7 +14,7 @@
 #include "geom/model/components.h"
 #include "geom/model/shapes.h"
 #include "surfmesh/model/model_wall.h"
-#include "tests/support/constants.h"
+#include "tests/support/test_constants.h"
 #include "tests/surfmesh/model/edges_of.h"
 
 namespace sterna::surfmesh {
@@ -32,8 +32,8 @@ TEST(ModelWall, PointsMoveToSurfaceOrToRim) {
     const double radial = std::hypot(p.y, p.z) - 1.0, axial = std::min(std::abs(p.x), std::abs(p.x - 2.0));
     return std::min(std::abs(radial), axial);
   };
-  const auto is_on_rim = [](const Point& p) { return std::abs(std::hypot(p.y, p.z) - 1.0) < 1e-9 && std::min(std::abs(p.x), std::abs(p.x - 2.0)) < 1e-9; };
-  int n_rim = 0;
+  const auto is_on_border = [](const Point& p) { return std::abs(std::hypot(p.y, p.z) - 1.0) < 1e-9 && std::min(std::abs(p.x), std::abs(p.x - 2.0)) < 1e-9; };
+  int n_border = 0;
   for (const TriangleId t : surface.mesh.triangles.ids()) {
     const auto p = corners(surface.mesh, t);
     const std::array<double, 3> inner{0.5, 0.3, 0.2};
@@ -49,12 +49,12 @@ TEST(ModelWall, PointsMoveToSurfaceOrToRim) {
       const Point on_edge = wall.nearest(0.25 * p[a] + 0.75 * p[b], t, weights);
       EXPECT_LT(distance_to_can(on_edge), 1e-12);
       // A triangle's edge on the end circle is an arc of less than 60 degrees; other edges between points of the circle run across the cap.
-      if (!is_on_rim(p[a]) || !is_on_rim(p[b]) || p[a].x != p[b].x || distance(p[a], p[b]) > 0.6) continue;
-      EXPECT_TRUE(is_on_rim(on_edge)) << format_point(on_edge);
-      ++n_rim;
+      if (!is_on_border(p[a]) || !is_on_border(p[b]) || p[a].x != p[b].x || distance(p[a], p[b]) > 0.6) continue;
+      EXPECT_TRUE(is_on_border(on_edge)) << format_point(on_edge);
+      ++n_border;
     }
   }
-  EXPECT_GT(n_rim, 40);  // each of the two circles from both sides
+  EXPECT_GT(n_border, 40);  // each of the two circles from both sides
 }
 
 TEST(SmoothAngle, IsAngleOfSkinNotOfRim) {
@@ -64,7 +64,7 @@ TEST(SmoothAngle, IsAngleOfSkinNotOfRim) {
     const SurfaceMeshReport report = mesh_model(can, edges_of(1.0, angle), {}, k_context).report;
     EXPECT_GT(report.max_smooth_angle, 0.5 * angle);
     EXPECT_LT(report.max_smooth_angle, 1.5 * angle);
-    EXPECT_NEAR(std::hypot(report.smooth_angle_place.y, report.smooth_angle_place.z), 1.0, 0.05);
+    EXPECT_NEAR(std::hypot(report.smooth_angle_location.y, report.smooth_angle_location.z), 1.0, 0.05);
   }
   const SurfaceMeshReport box = mesh_model(make_box("box", {0, 0, 0}, {1, 1, 1}), edges_of(0.3, 0.2), {}, k_context).report;
   EXPECT_LT(box.max_smooth_angle, 1e-7);  // acos of rounded values

@@ -6,7 +6,7 @@
 #include "geom/model/shapes.h"
 #include "surfmesh/model/replaced_faces.h"
 #include "surfmesh/repair/repair_surface.h"
-#include "tests/support/constants.h"
+#include "tests/support/test_constants.h"
 
 namespace sterna::surfmesh {
 namespace {
@@ -51,7 +51,7 @@ TEST(ReplacedFaces, KeptFacesAreExactOthersNamedWithDistance) {
   EXPECT_EQ(face.n_new, static_cast<std::int64_t>(repaired.n_triangles() - soup.triangles.size()));
   EXPECT_GT(face.distance, 1e-6);
   EXPECT_LT(face.distance, 0.05) << "a hole of two edges";
-  EXPECT_LT(distance(face.place, hole), 0.3);
+  EXPECT_LT(distance(face.location, hole), 0.3);
   EXPECT_THAT(to_lines(behind.faces, 5).front(), testing::AllOf(testing::HasSubstr("\"tube\""), testing::HasSubstr("m from the model")));
 }
 

@@ -6,8 +6,8 @@
 #include "geom/model/shapes.h"
 #include "io/file/cad_file.h"
 #include "surfmesh/model/surface_mesh.h"
-#include "tests/support/constants.h"
 #include "tests/support/data.h"
+#include "tests/support/test_constants.h"
 
 namespace sterna::surfmesh {
 namespace {

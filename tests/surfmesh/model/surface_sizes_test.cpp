@@ -12,8 +12,8 @@
 #include "geom/model/model_builder.h"
 #include "geom/model/shapes.h"
 #include "surfmesh/model/surface_mesh.h"
-#include "tests/support/constants.h"
 #include "tests/support/model_meshes.h"
+#include "tests/support/test_constants.h"
 
 namespace sterna::surfmesh {
 namespace {
@@ -25,7 +25,7 @@ constexpr double k_growth = 0.2;
 /// Returns a repeatable number in [0, 1).
 double share_of(int i, double by) { return std::abs(std::sin(by * (i + 1.0))) * 1e4 - std::floor(std::abs(std::sin(by * (i + 1.0))) * 1e4); }
 
-/// The size field of a model whose faces have the target size `largest`, with the sizes required by edges changed by `ask`.
+/// The size field of a model whose faces have the target size `largest`, with the sizes required by edges changed by `request`.
 struct Field {
   const Model& model;
   Column<EdgeId, EdgeSamples> edges;
@@ -40,32 +40,32 @@ struct Field {
     options.min_edge = 1e-4 * largest;
     options.narrow = 100.0;
     sizes = sizes_of_faces(model, edges, options, {}, k_context);
-    add_place_sizes(model, edges, options, {}, sizes);
+    add_local_sizes(model, edges, options, {}, sizes);
     std::vector<AbsorbedPart> absorbed;
     topology = absorb_small_parts(model, edges, sizes, absorbed);
     add_sources(model, edges, topology, options, sizes, k_context);
-    for (auto& asked : sizes.edge_sizes)  // lengths of short edges are not tested here
-      for (double& size : asked) size = largest;
+    for (auto& requested : sizes.edge_sizes)  // lengths of short edges are not tested here
+      for (double& size : requested) size = largest;
   }
-  void ask(EdgeId e, std::size_t sample, double size) {
+  void request(EdgeId e, std::size_t sample, double size) {
     sizes.edge_sizes[e][sample] = size;
     sizes.sources.push_back({edges[e].samples[sample].point, size});
   }
   /// Sets one size along a whole edge.
-  void ask_along(EdgeId e, double size) {
+  void request_along(EdgeId e, double size) {
     for (double& s : sizes.edge_sizes[e]) s = size;
     const ModelEdge& edge = model.edges[e];
     const auto n = static_cast<int>(std::ceil(edges[e].length / size));
     for (int i = 0; i <= n; ++i) sizes.sources.push_back({edge.curve->point(edge.range.from + edge.range.length() * i / n), size});
   }
-  SurfaceSizes made(std::vector<SizeSite> in_space = {}) const { return SurfaceSizes(model, edges, topology, sizes, std::move(in_space), k_context); }
+  SurfaceSizes made(std::vector<SizePoint> in_space = {}) const { return SurfaceSizes(model, edges, topology, sizes, std::move(in_space), k_context); }
 };
 
 /// Largest and mean of |field / exact - 1| over a face.
 struct Difference {
   double largest = 0.0;
   double mean = 0.0;
-  std::string place;  ///< where `largest` occurs
+  std::string location;  ///< where `largest` occurs
 };
 Difference difference_on(const Model& model, FaceId f, const ParameterBox& box, const SurfaceSizes& field,
                          const std::function<double(Uv, const Point&)>& exact) {
@@ -78,8 +78,8 @@ Difference difference_on(const Model& model, FaceId f, const ParameterBox& box, 
     const double off = std::abs(field.on_face(f, at, p) / exact(at, p) - 1.0);
     if (off > result.largest) {
       result.largest = off;
-      result.place = std::to_string(p.x) + " " + std::to_string(p.y) + " " + std::to_string(p.z) + ": " + std::to_string(field.on_face(f, at, p)) + " for " +
-                     std::to_string(exact(at, p));
+      result.location = std::to_string(p.x) + " " + std::to_string(p.y) + " " + std::to_string(p.z) + ": " + std::to_string(field.on_face(f, at, p)) + " for " +
+                        std::to_string(exact(at, p));
     }
     result.mean += off / n;
   }
@@ -113,7 +113,7 @@ TEST(SurfaceSizes, GrowFromAFineEdgeOverAPlane) {
   const Model model = plate("plate", 0.0);
   Field field(model, 0.3, 0.2);
   const EdgeId e = model.faces[k_first_face].borders[0][0].edge;
-  field.ask_along(e, 0.002);
+  field.request_along(e, 0.002);
   const SurfaceSizes made = field.made();
   const ParameterBox box = model.faces[k_first_face].surface->domain();
   const EdgeSamples& line = field.edges[e];
@@ -121,7 +121,7 @@ TEST(SurfaceSizes, GrowFromAFineEdgeOverAPlane) {
     return std::min(0.3, 0.002 + k_growth * distance_to_segment(p, line.samples.front().point, line.samples.back().point));
   };
   const Difference off = difference_on(model, k_first_face, box, made, exact);
-  EXPECT_LT(off.largest, 0.06) << off.place;
+  EXPECT_LT(off.largest, 0.06) << off.location;
   EXPECT_LT(off.mean, 0.01);
   for (int i = 0; i <= 10; ++i) EXPECT_NEAR(made.on_edge(e, model.edges[e].range.from + 0.1 * i * model.edges[e].range.length()), 0.002, 1e-12);
 }
@@ -130,11 +130,11 @@ TEST(SurfaceSizes, GrowFromEdgePointOverPlane) {
   const Model model = plate("plate", 0.0);
   Field field(model, 0.3, 0.2);
   const EdgeId e = model.faces[k_first_face].borders[0][1].edge;
-  field.ask(e, 12, 0.001);
+  field.request(e, 12, 0.001);
   const Point source = field.edges[e].samples[12].point;
   const Difference off = difference_on(model, k_first_face, model.faces[k_first_face].surface->domain(), field.made(),
                                        [&](Uv, const Point& p) { return std::min(0.3, 0.001 + k_growth * distance(p, source)); });
-  EXPECT_LT(off.largest, 0.08) << off.place;
+  EXPECT_LT(off.largest, 0.08) << off.location;
   EXPECT_LT(off.mean, 0.01);
 }
 
@@ -145,7 +145,7 @@ TEST(SurfaceSizes, SourcesInSpaceAreMetOnTheFace) {
   const SurfaceSizes made = field.made({{source, 0.002}});
   const Difference off = difference_on(model, k_first_face, model.faces[k_first_face].surface->domain(), made,
                                        [&](Uv, const Point& p) { return std::min(0.3, 0.002 + k_growth * distance(p, source)); });
-  EXPECT_LT(off.largest, 0.15) << off.place;  // within a cell of the location itself
+  EXPECT_LT(off.largest, 0.15) << off.location;  // within a cell of the location itself
   EXPECT_LT(off.mean, 0.01);
 }
 
@@ -155,14 +155,14 @@ TEST(SurfaceSizes, DistancesOnACylinderRunAroundIt) {
   Field field(model, 2.0, 1.5);
   const EdgeId lower = model.faces[k_first_face].borders[0][0].edge;
   const std::size_t at = field.edges[lower].samples.size() / 2;
-  field.ask(lower, at, 0.004);
+  field.request(lower, at, 0.004);
   const double around = std::atan2(field.edges[lower].samples[at].point.y, field.edges[lower].samples[at].point.x);
   const double by_curvature = 2.0 * std::sin(0.75) * radius;
   const Difference off = difference_on(model, k_first_face, model.faces[k_first_face].surface->domain(), field.made(), [&](Uv uv, const Point&) {
     const double turn = std::abs(std::remainder(uv.u - around, 2.0 * pi));
     return std::min(by_curvature, 0.004 + k_growth * std::hypot(radius * turn, uv.v));
   });
-  EXPECT_LT(off.largest, 0.08) << off.place;
+  EXPECT_LT(off.largest, 0.08) << off.location;
   EXPECT_LT(off.mean, 0.02);
 }
 
@@ -170,11 +170,11 @@ TEST(SurfaceSizes, DistancesOnASphereRunAroundIt) {
   const Model model = test::make_ball(1.0);
   Field field(model, 2.0, 1.5);
   const EdgeId seam = model.faces[k_first_face].borders[0][1].edge;
-  field.ask(seam, field.edges[seam].samples.size() - 1, 0.01);  // the north pole
+  field.request(seam, field.edges[seam].samples.size() - 1, 0.01);  // the north pole
   const double by_curvature = 2.0 * std::sin(0.75);
   const Difference off = difference_on(model, k_first_face, model.faces[k_first_face].surface->domain(), field.made(),
                                        [&](Uv uv, const Point&) { return std::min(by_curvature, 0.01 + k_growth * (0.5 * pi - uv.v)); });
-  EXPECT_LT(off.largest, 0.08) << off.place;
+  EXPECT_LT(off.largest, 0.08) << off.location;
   EXPECT_LT(off.mean, 0.02);
 }
 
@@ -182,11 +182,11 @@ TEST(SurfaceSizes, NothingCrossesAGap) {
   Model model = plate("fine", 0.0);
   append(model, plate("coarse", 0.01));
   Field field(model, 0.3, 0.2);
-  field.ask_along(model.faces[k_first_face].borders[0][0].edge, 0.002);
+  field.request_along(model.faces[k_first_face].borders[0][0].edge, 0.002);
   const SurfaceSizes made = field.made();
   const FaceId coarse(1);
   const Difference off = difference_on(model, coarse, model.faces[coarse].surface->domain(), made, [](Uv, const Point&) { return 0.3; });
-  EXPECT_LT(off.largest, 1e-6) << off.place;
+  EXPECT_LT(off.largest, 1e-6) << off.location;
   for (const EdgeUse& use : model.faces[coarse].borders[0])
     EXPECT_EQ(made.on_edge(use.edge, 0.5 * (model.edges[use.edge].range.from + model.edges[use.edge].range.to)), 0.3);
 }
@@ -198,7 +198,7 @@ TEST(SurfaceSizes, SizesSpreadAroundBoxEdgesNotThroughBox) {
   for (const EdgeId e : model.edges.ids()) {
     const auto& samples = field.edges[e].samples;
     const Point& p = samples[samples.size() / 2].point;
-    if (distance(p, {0.0, 0.5, 0.02}) < 1e-9) field.ask(e, samples.size() / 2, 0.002);
+    if (distance(p, {0.0, 0.5, 0.02}) < 1e-9) field.request(e, samples.size() / 2, 0.002);
   }
   const SurfaceSizes made = field.made();
   for (const FaceId f : model.faces.ids()) {
@@ -216,7 +216,7 @@ TEST(SurfaceSizes, SizesSpreadAroundBoxEdgesNotThroughBox) {
 TEST(SurfaceSizes, ChangeNoFasterThanTheGrowthSays) {
   const Model model = test::make_ball(1.0);
   Field field(model, 0.3, 0.2);
-  field.ask(model.faces[k_first_face].borders[0][1].edge, 3, 0.004);
+  field.request(model.faces[k_first_face].borders[0][1].edge, 3, 0.004);
   const SurfaceSizes made = field.made({{{0.0, 0.8, 0.6}, 0.01}});
   const Surface& surface = *model.faces[k_first_face].surface;
   for (int i = 0; i < 5000; ++i) {

@@ -17,8 +17,8 @@
 #include "geom/model/cpacs.h"
 #include "geom/model/shapes.h"
 #include "surfmesh/model/surface_mesh.h"
-#include "tests/support/constants.h"
 #include "tests/support/data.h"
+#include "tests/support/test_constants.h"
 
 namespace sterna::surfmesh {
 namespace {
@@ -67,9 +67,9 @@ void expect_closed(const SurfaceMesh& surface) {
 
 void expect_on_surfaces(const Model& model, const SurfaceMesh& surface) {
   for (const VertexId v : surface.mesh.points.ids()) {
-    if (surface.edge_places[v].edge.is_valid()) continue;
-    const VertexPlace& place = surface.places[v];
-    EXPECT_LE(distance(model.faces[place.face].surface->point(place.at), surface.mesh.points[v]), std::max(1e-9, surface.report.max_edge_distance));
+    if (surface.edge_locations[v].edge.is_valid()) continue;
+    const VertexLocation& location = surface.locations[v];
+    EXPECT_LE(distance(model.faces[location.face].surface->point(location.at), surface.mesh.points[v]), std::max(1e-9, surface.report.max_edge_distance));
   }
 }
 
@@ -97,7 +97,7 @@ std::set<EdgeId> edges_of(const Model& model, Which which) {
 /// Returns the heights of the triangles on the edges, for triangles in rows.
 std::vector<double> first_heights(const SurfaceMesh& surface, const std::set<EdgeId>& edges, const Model& model, std::size_t* n_isotropic = nullptr) {
   std::vector<double> result;
-  const auto is_on = [&](VertexId v) { return surface.edge_places[v].edge.is_valid() && edges.contains(surface.edge_places[v].edge); };
+  const auto is_on = [&](VertexId v) { return surface.edge_locations[v].edge.is_valid() && edges.contains(surface.edge_locations[v].edge); };
   for (const TriangleId t : surface.mesh.triangles.ids()) {
     if (!is_side(model.faces[surface.triangle_face[t]].role)) continue;
     const auto& v = surface.mesh.triangles[t];
@@ -127,7 +127,7 @@ std::vector<double> segments_from(const Model& model, const SurfaceMesh& surface
   end = nearest;
   std::vector<Point> points;
   for (const VertexId v : surface.mesh.points.ids())
-    if (surface.edge_places[v].edge.is_valid() && edges.contains(surface.edge_places[v].edge)) points.push_back(surface.mesh.points[v]);
+    if (surface.edge_locations[v].edge.is_valid() && edges.contains(surface.edge_locations[v].edge)) points.push_back(surface.mesh.points[v]);
   std::sort(points.begin(), points.end(), [&](const Point& a, const Point& b) { return distance(a, end) < distance(b, end); });
   std::vector<double> result{distance(points.front(), end)};
   for (std::size_t i = 1; i < points.size(); ++i) result.push_back(distance(points[i - 1], points[i]));
@@ -189,10 +189,10 @@ TEST(WingBands, BluntTrailingEdgesHaveTheirNumberOfCells) {
     EXPECT_LE(surface.report.bands.max_strip_stretch, 50.5);
     const auto uses = uses_of_edges(model);
     std::map<EdgeId, int> n_vertices;
-    for (const EdgePlace& place : surface.edge_places) ++n_vertices[place.edge];
+    for (const EdgeLocation& location : surface.edge_locations) ++n_vertices[location.edge];
     int n_short = 0;
     for (const EdgeId e : model.edges.ids()) {
-      const auto is_base = [&](const EdgeUsePlace& use) {
+      const auto is_base = [&](const EdgeUseLocation& use) {
         return model.faces[use.face].role == FaceRole::trailing_edge && model.faces[use.face].borders[0].size() == 4;
       };
       const bool is_short = !model.edges[e].is_degenerate() && std::any_of(uses[e].begin(), uses[e].end(), is_base) &&

@@ -16,10 +16,10 @@
 #include "io/file/surface_file.h"
 #include "surfmesh/remesh/remesh_demand.h"
 #include "surfmesh/stitch/stitch_surface.h"
-#include "tests/support/constants.h"
 #include "tests/support/data.h"
 #include "tests/support/error_of.h"
-#include "tests/support/shapes.h"
+#include "tests/support/test_constants.h"
+#include "tests/support/test_shapes.h"
 
 namespace sterna::surfmesh {
 namespace {
@@ -27,8 +27,8 @@ namespace {
 using test::k_context;
 using test::k_degree;
 
-RemeshResult remeshed(const TriMesh& wall, const RemeshOptions& options = {}, std::vector<PatchSurfaceOptions> patches = {}, const SpaceSizes& asked = {}) {
-  return remesh_surface(wall, options, patches, asked, k_context);
+RemeshResult remeshed(const TriMesh& wall, const RemeshOptions& options = {}, std::vector<PatchSurfaceOptions> patches = {}, const SpaceSizes& requested = {}) {
+  return remesh_surface(wall, options, patches, requested, k_context);
 }
 
 std::int64_t n_crossings(const TriMesh& mesh) { return find_crossings(mesh, k_context).total; }
@@ -104,7 +104,7 @@ TEST(RemeshSurface, CoarseSphereComesNearerToTheSphere) {
     EXPECT_LT(farthest_from_sphere(smooth.mesh, 2.0), 0.1 * farthest_from_sphere(flat.mesh, 2.0));
     EXPECT_GT(smooth.report.min_angle, 20.0 * k_degree);
     EXPECT_GT(smooth.report.mean_radius_ratio, 0.93);
-    EXPECT_EQ(smooth.report.n_needles, 0);
+    EXPECT_EQ(smooth.report.n_slivers, 0);
     EXPECT_EQ(smooth.report.n_lines, 0);
     // Vertices of the flat mesh are on the given triangles.
     EXPECT_LT(flat.report.to_input.max, 0.02 * 2.0);
@@ -248,9 +248,9 @@ TEST(RemeshSurface, SizesOfPatchesSourcesAndRefinement) {
   const RemeshResult ruled = remeshed(wall, {.max_edge = 0.1}, {{.names = "l*", .max_edge = 0.05}});
   expect_sound(wall, ruled.mesh);
   EXPECT_GT(n_of(ruled.mesh, PatchId(1)), 3 * n_of(plain.mesh, PatchId(1)));
-  SpaceSizes asked;
-  asked.regions = [](const Point& p, double slope) { return 0.01 + slope * distance(p, {0.5, 0.5, 0.0}); };
-  const RemeshResult near = remeshed(wall, {.max_edge = 0.1}, {}, asked);
+  SpaceSizes requested;
+  requested.regions = [](const Point& p, double slope) { return 0.01 + slope * distance(p, {0.5, 0.5, 0.0}); };
+  const RemeshResult near = remeshed(wall, {.max_edge = 0.1}, {}, requested);
   expect_sound(wall, near.mesh);
   double shortest = 1.0;
   for (const TriangleId t : near.mesh.triangles.ids()) {
@@ -281,9 +281,9 @@ TEST(RemeshSurface, HalfKeepsItsRim) {
     half.triangles.push_back(v);
     half.triangle_patch.push_back(PatchId(0));
   }
-  const Topology rim(half, k_context);
-  for (std::size_t h = 0; h < rim.n_halfedges(); ++h)
-    if (rim.is_boundary(HalfedgeId(h))) half.points[rim.from(HalfedgeId(h))].y = 0.0;
+  const Topology border(half, k_context);
+  for (std::size_t h = 0; h < border.n_halfedges(); ++h)
+    if (border.is_boundary(HalfedgeId(h))) half.points[border.from(HalfedgeId(h))].y = 0.0;
   const RemeshResult result = remeshed(half, {.max_edge = 0.15});
   expect_sound(half, result.mesh);
   const Topology topology(result.mesh, k_context);
@@ -340,11 +340,11 @@ TEST(RemeshSurface, UnreachableDemandEndsItEarly) {
   const TriMesh wall = test::sphere(8);
   const auto demanding = [&](const RemeshDemand& demand) { return remesh_surface(wall, {}, {}, {}, demand, k_context); };
   // Limits that are met: the result is the same as without limits.
-  const RemeshResult free = remeshed(wall), met = demanding({.most_needles = 0, .least_angle = 10.0 * k_degree});
+  const RemeshResult free = remeshed(wall), met = demanding({.most_slivers = 0, .least_angle = 10.0 * k_degree});
   EXPECT_EQ(free.mesh.points, met.mesh.points);
   EXPECT_EQ(free.mesh.triangles, met.mesh.triangles);
   test::expect_error(ErrorCode::geometry_failed, "the new triangles have 0 sliver triangles, 0 % of the triangles",
-                     [&] { demanding({.most_needles = 0, .least_angle = 59.9 * k_degree}); });
+                     [&] { demanding({.most_slivers = 0, .least_angle = 59.9 * k_degree}); });
   // A sphere of 8 squares a side lies inside the remeshed one by a hundredth of its diameter.
   test::expect_error(ErrorCode::geometry_failed, "from the input triangles, the limit is", [&] { demanding({.largest_distance = 1e-5}); });
   EXPECT_EQ(free.mesh.points, demanding({.largest_distance = 0.1}).mesh.points);
@@ -357,9 +357,9 @@ TEST(RemeshSurface, UnreachableDemandEndsItEarly) {
   TriMesh wedge = test::cube(1);
   for (Point& p : wedge.points)
     if (p.x == 1.0) p.z = 1e-4 * p.z;
-  ASSERT_GE(count_needles(wedge).n, 2);
+  ASSERT_GE(count_slivers(wedge).n, 2);
   test::expect_error(ErrorCode::geometry_failed, "corners of lines, which are kept, force",
-                     [&] { remesh_surface(wedge, {}, {}, {}, {.most_needles = 0.0, .least_angle = 0.0}, k_context); });
+                     [&] { remesh_surface(wedge, {}, {}, {}, {.most_slivers = 0.0, .least_angle = 0.0}, k_context); });
 }
 
 /// Returns a box of 1 m by 1e-12 m by 1e-12 m.
@@ -380,8 +380,8 @@ TEST(RemeshSurface, EndlessHalvingIsErrorWithLocation) {
   const Error error = test::error_of([] { remeshed(line_like_box(), {.max_edge = 1e-7, .max_triangles = 20'000}); });
   EXPECT_EQ(error.code(), ErrorCode::overflow);
   EXPECT_THAT(error.what(), testing::HasSubstr("halving long edges did not end"));
-  ASSERT_EQ(error.info().places.size(), 1u);
-  EXPECT_NEAR(error.info().places[0].position.x, 0.5, 0.5);
+  ASSERT_EQ(error.info().locations.size(), 1u);
+  EXPECT_NEAR(error.info().locations[0].position.x, 0.5, 0.5);
 }
 
 TEST(RemeshSurface, Refusals) {
@@ -416,7 +416,7 @@ TEST_P(RemeshRealFile, IsSound) {
   EXPECT_GT(r.angle_quantile_1, 15.0 * k_degree);
   EXPECT_LT(r.to_input.max, GetParam().distance * r.length);
   EXPECT_LT(r.from_input.max, GetParam().distance * r.length);
-  EXPECT_LE(static_cast<double>(r.n_needles), 0.005 * static_cast<double>(r.n_triangles));
+  EXPECT_LE(static_cast<double>(r.n_slivers), 0.005 * static_cast<double>(r.n_triangles));
   EXPECT_EQ(r.n_kept, 0);
 }
 

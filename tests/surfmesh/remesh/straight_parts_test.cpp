@@ -10,8 +10,8 @@
 #include "geom/mesh/tri_mesh.h"
 #include "surfmesh/remesh/remesh_surface.h"
 #include "surfmesh/remesh/remesher.h"
-#include "tests/support/constants.h"
-#include "tests/support/shapes.h"
+#include "tests/support/test_constants.h"
+#include "tests/support/test_shapes.h"
 
 namespace sterna::surfmesh {
 namespace {

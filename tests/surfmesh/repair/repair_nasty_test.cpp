@@ -9,8 +9,8 @@
 #include "geom/mesh/topology.h"
 #include "io/file/surface_file.h"
 #include "surfmesh/repair/repair_surface.h"
-#include "tests/support/constants.h"
 #include "tests/support/data.h"
+#include "tests/support/test_constants.h"
 
 namespace sterna::test {
 namespace {
@@ -36,7 +36,7 @@ TEST(RepairNasty, WhatIsNotASheetIsRepaired) {
     } catch (const Error& error) {
       EXPECT_TRUE(beyond.count(file)) << error.what();
       EXPECT_THAT(error.what(), testing::HasSubstr("wrap"));
-      EXPECT_FALSE(error.info().places.empty());
+      EXPECT_FALSE(error.info().locations.empty());
     }
   }
 }

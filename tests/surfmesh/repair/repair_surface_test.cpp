@@ -92,7 +92,7 @@ TEST(ForeseeRepair, CountsWhatRepairDoes) {
   EXPECT_NEAR(forecast.area, 12.0 - 4.0 / 8.0, 1e-12);
   EXPECT_DOUBLE_EQ(forecast.length, result.report.length);
   EXPECT_FALSE(forecast.problem.empty());
-  EXPECT_FALSE(forecast.places.empty());
+  EXPECT_FALSE(forecast.locations.empty());
 }
 
 TEST(ForeseeRepair, NothingIsForeseenOfWhatIsAccepted) {
@@ -144,7 +144,7 @@ TEST(RepairSurface, HolesAboveLimitAreErrorNamingWrap) {
   const Error error = error_of([&] { repaired({without(cube_soup(), {0, 1})}, options); });
   EXPECT_EQ(error.code(), ErrorCode::open_surface);
   EXPECT_THAT(error.what(), testing::HasSubstr("wrap"));
-  EXPECT_FALSE(error.info().places.empty());
+  EXPECT_FALSE(error.info().locations.empty());
   options.flat_hole = 2.0;
   options.hole_edges = 3;
   EXPECT_EQ(error_of([&] { repaired({without(cube_soup(), {0, 1})}, options); }).code(), ErrorCode::open_surface);

@@ -52,12 +52,12 @@ TEST(GrowthLaw, FlatCellsOfLineGrowByCommonRatio) {
   for (const int n : {2, 12, 30, 45}) {
     for (const double edge : {1e-4, 1e-2, 1.0}) {
       for (const double share : {0.2, 0.5, 0.8, 0.97, 1.0, 1.3}) {
-        const double asked = layer_height(h0, growth_for_edge(h0, edge, g, n), n), height = share * asked;
-        const LineGrowth line{.h0 = h0, .common = g, .edge = edge, .target = asked};
+        const double requested = layer_height(h0, growth_for_edge(h0, edge, g, n), n), height = share * requested;
+        const LineGrowth line{.h0 = h0, .common = g, .edge = edge, .target = requested};
         std::vector<double> t(static_cast<std::size_t>(n) + 1);
         layer_parameters(line, height, n, t.data());
         std::vector<double> full(t.size());  // of a neighbour with the full target height
-        layer_parameters(line, asked, n, full.data());
+        layer_parameters(line, requested, n, full.data());
         SCOPED_TRACE(testing::Message() << n << " layers, edge " << edge << ", share " << share);
         EXPECT_EQ(t.front(), 0.0);
         EXPECT_EQ(t.back(), 1.0);

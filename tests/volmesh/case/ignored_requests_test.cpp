@@ -8,7 +8,7 @@
 #include <vector>
 
 #include "geom/base/error.h"
-#include "tests/support/shapes.h"
+#include "tests/support/test_shapes.h"
 
 namespace sterna::volmesh {
 namespace {

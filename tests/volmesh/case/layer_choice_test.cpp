@@ -6,7 +6,7 @@
 #include <functional>
 
 #include "geom/base/error.h"
-#include "tests/support/shapes.h"
+#include "tests/support/test_shapes.h"
 #include "volmesh/case/growth_law.h"
 #include "volmesh/case/layer_choice.h"
 #include "volmesh/volume_mesh.h"
@@ -25,8 +25,8 @@ std::string message_of(const std::function<void()>& work) {
 
 TEST(SolveLayers, TheFewestLayersThatReachTheHeight) {
   for (const double growth : {1.0, 1.1, 1.2, 1.4}) {
-    const LayerChoice asked{.layers = 30, .first_height = 1e-4, .max_growth = growth, .total_height = 0.01};
-    const int n = solve_layers(asked, "layers", "walls").layers;
+    const LayerChoice requested{.layers = 30, .first_height = 1e-4, .max_growth = growth, .total_height = 0.01};
+    const int n = solve_layers(requested, "layers", "walls").layers;
     EXPECT_GE(layer_height(1e-4, growth, n), 0.01 * (1 - 1e-9)) << growth;
     EXPECT_LT(layer_height(1e-4, growth, n - 1), 0.01) << growth;
   }
@@ -38,8 +38,8 @@ TEST(SolveLayers, TheGrowthThatReachesTheHeight) {
 }
 
 TEST(SolveLayers, RefusesWhatCannotBe) {
-  const LayerChoice asked{.layers = 10, .first_height = 1e-4, .max_growth = 1.2, .total_height = 0.05};
-  EXPECT_THAT(message_of([&] { solve_layers(asked, "none", "patch wing"); }),
+  const LayerChoice requested{.layers = 10, .first_height = 1e-4, .max_growth = 1.2, .total_height = 0.05};
+  EXPECT_THAT(message_of([&] { solve_layers(requested, "none", "patch wing"); }),
               testing::AllOf(testing::HasSubstr("patch wing"), testing::HasSubstr("needs a growth of"), testing::HasSubstr("26 layers are enough")));
   EXPECT_THAT(message_of([] { solve_layers({.layers = 10, .first_height = 1e-2, .max_growth = 1.2, .total_height = 0.05}, "max_growth", "walls"); }),
               testing::HasSubstr("give at most 5 layers"));
@@ -133,9 +133,9 @@ TEST(TotalHeight, OfAPatchAlone) {
     Column<PatchId, double> heights(result.mesh.patches.size(), 0.0);
     for (std::uint32_t line = 0; line < result.mesh.layers.n_lines(); ++line) {
       const Point top = result.mesh.points[result.mesh.layers.top(line)];
-      const Point foot = wall.points[VertexId(line)];
-      double& height = heights[PatchId(foot.z > 0.3 ? 1 : 0)];
-      if (std::abs(foot.z) > 0.9) height = std::max(height, distance(top, foot));
+      const Point base_point = wall.points[VertexId(line)];
+      double& height = heights[PatchId(base_point.z > 0.3 ? 1 : 0)];
+      if (std::abs(base_point.z) > 0.9) height = std::max(height, distance(top, base_point));
     }
     return heights;
   }();

@@ -6,12 +6,12 @@
 #include <cmath>
 
 #include "geom/math/constants.h"
-#include "tests/support/shapes.h"
+#include "tests/support/test_shapes.h"
 
 namespace sterna::volmesh {
 namespace {
 
-MeshCase asked(int layers) {
+MeshCase requested(int layers) {
   MeshCase mesh_case;
   mesh_case.envelope.layers = layers;
   mesh_case.envelope.first_height = 1e-4;
@@ -21,19 +21,19 @@ MeshCase asked(int layers) {
 
 TEST(ThinLayers, ReportsSufficientNumberOnlyWhereTooFew) {
   const TriMesh cube = test::cube(4);  // all triangles are equal
-  const auto thin = thin_layers(cube, asked(8));
+  const auto thin = thin_layers(cube, requested(8));
   ASSERT_TRUE(thin.has_value());
   EXPECT_DOUBLE_EQ(thin->share, 1.0);
-  EXPECT_FALSE(thin_layers(cube, asked(thin->enough)).has_value());
-  EXPECT_TRUE(thin_layers(cube, asked(thin->enough - 1)).has_value());
+  EXPECT_FALSE(thin_layers(cube, requested(thin->enough)).has_value());
+  EXPECT_TRUE(thin_layers(cube, requested(thin->enough - 1)).has_value());
   // Hand calculation: legs of a quarter and their diagonal.
-  const double edge = (0.5 + 0.25 * std::sqrt(2.0)) / 3.0, wanted = k_regular_height * edge / 3.0;
-  EXPECT_EQ(thin->enough, 1 + static_cast<int>(std::ceil(std::log(wanted / 1e-4) / std::log(1.3))));
+  const double edge = (0.5 + 0.25 * std::sqrt(2.0)) / 3.0, expected = k_regular_height * edge / 3.0;
+  EXPECT_EQ(thin->enough, 1 + static_cast<int>(std::ceil(std::log(expected / 1e-4) / std::log(1.3))));
 }
 
 TEST(ThinLayers, IsSilentForSeveralRequests) {
   const TriMesh cube = test::cube(4);
-  MeshCase with_height = asked(8), with_rule = asked(8), member = asked(8);
+  MeshCase with_height = requested(8), with_rule = requested(8), member = requested(8);
   with_height.envelope.total_height = 0.1;
   with_rule.patches = {{.names = "*", .layers = 20}};
   member.family.refinement = 1.5;

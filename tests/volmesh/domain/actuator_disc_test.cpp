@@ -1,6 +1,6 @@
 // Actuator discs: their triangles, their two sides, and the mesh around them.
 #include "tests/support/error_of.h"
-#include "volmesh/domain/disc_sheets.h"
+#include "volmesh/domain/disc_baffles.h"
 
 #include <gmock/gmock.h>
 
@@ -9,11 +9,11 @@
 
 #include "geom/base/error.h"
 #include "geom/math/measures.h"
+#include "geom/mesh/baffles.h"
 #include "geom/mesh/check.h"
-#include "geom/mesh/sheets.h"
 #include "geom/mesh/topology.h"
-#include "tests/support/constants.h"
-#include "tests/support/shapes.h"
+#include "tests/support/test_constants.h"
+#include "tests/support/test_shapes.h"
 #include "volmesh/domain/farfield.h"
 #include "volmesh/improve/improve.h"
 #include "volmesh/tetra/size_field.h"
@@ -68,15 +68,15 @@ TEST(ActuatorDisc, TrianglesCoverDiscsAndRings) {
       }
       // Area of the polygons between inner and outer rim.
       const auto polygon = [&](double radius) {
-        double rim = 0.0;
+        double border = 0.0;
         std::size_t sides = 0;
         for (std::size_t h = 0; h < topology.n_halfedges(); ++h) {
           const HalfedgeId half(h);
           if (!topology.is_boundary(half) || std::abs(distance(mesh.points[topology.from(half)], disc.center) - radius) > 1e-9) continue;
           ++sides;
         }
-        rim = static_cast<double>(sides);
-        return sides == 0 ? 0.0 : 0.5 * rim * radius * radius * std::sin(2.0 * std::numbers::pi / rim);
+        border = static_cast<double>(sides);
+        return sides == 0 ? 0.0 : 0.5 * border * radius * radius * std::sin(2.0 * std::numbers::pi / border);
       };
       EXPECT_NEAR(area_of(mesh), polygon(1.0) - polygon(inner), 1e-12);
       // No triangle has all corners on the rims.
@@ -119,7 +119,7 @@ CheckReport mesh_of(const TriMesh& wall, const std::vector<ActuatorDisc>& discs,
   std::vector<std::array<std::uint32_t, 3>> triangles;
   for (const TriangleVertices& v : boundary.triangles) triangles.push_back({v[0].value(), v[1].value(), v[2].value()});
   const std::vector<Point> holes = find_cavity_points(wall, k_context);
-  const TetraBoundary domain{.points = points, .triangles = triangles, .hole_points = holes, .has_sheets = !discs.empty()};
+  const TetraBoundary domain{.points = points, .triangles = triangles, .hole_points = holes, .has_baffles = !discs.empty()};
   const SizeField sizes = build_size_field(domain, {}, {}, k_context);
   TetraResult tets = fill(domain, &sizes, {.engine = engine, .try_other_engine = false}, k_context);
   EXPECT_EQ(tets.engine, engine);
@@ -148,13 +148,13 @@ TEST(ActuatorDisc, DiscsInFluidAreValidWithBothEngines) {
     const CheckReport of_plain = mesh_of(test::sphere(8), {}, engine, without);
     EXPECT_NEAR(report.total_volume, of_plain.total_volume, 1e-11 * of_plain.total_volume);
     // Both sides exist, face on face, and share only the nodes of the rims.
-    const SheetSides sides = find_sheet_sides(mesh);
+    const BaffleSides sides = find_baffle_sides(mesh);
     ASSERT_FALSE(sides.empty());
     std::size_t n_first = 0, n_second = 0, n_single = 0;
     for (std::size_t i = 0; i < mesh.boundary_triangles.size(); ++i) {
       const Patch& patch = mesh.patches[mesh.boundary_triangles[i].patch];
       if (patch.kind != PatchKind::interface) continue;
-      n_single += !sides.is_sheet(i);
+      n_single += !sides.is_baffle(i);
       (sides.is_second(i) ? n_second : n_first) += 1;
       EXPECT_EQ(sides.is_second(i), patch.name.ends_with(".back"));
     }
@@ -168,7 +168,7 @@ TEST(ActuatorDisc, NoFluxGetsThroughASheet) {
   // No tetrahedron has nodes of both sides: the only path between the sides is around the rim.
   HybridMesh mesh;
   mesh_of(test::sphere(6), {{.center = {2, 0, 0}, .radius = 1.0, .edge = 0.2}}, "hxt", mesh);
-  const SheetSides sides = find_sheet_sides(mesh);
+  const BaffleSides sides = find_baffle_sides(mesh);
   std::vector<int> side(mesh.points.size(), 0);
   for (std::size_t node = 0; node < sides.twin.size(); ++node)
     if (sides.twin[node] != node) {
@@ -199,8 +199,8 @@ TEST(ActuatorDisc, SaysWhatIsWrongAndWhere) {
   EXPECT_EQ(touching.code, ErrorCode::self_intersection);
   EXPECT_THAT(touching.attempted, HasSubstr("prop"));
   EXPECT_THAT(touching.hint, HasSubstr("leave a gap"));
-  ASSERT_FALSE(touching.places.empty());
-  EXPECT_NEAR(touching.places[0].position.x, 0.0, 1e-9);
+  ASSERT_FALSE(touching.locations.empty());
+  EXPECT_NEAR(touching.locations[0].position.x, 0.0, 1e-9);
   EXPECT_EQ(add({{.name = "a", .center = {3, 0, 0}, .radius = 1.0}, {.name = "b", .center = {3, 0, 0}, .axis = {0, 1, 0}, .radius = 1.0}}).code,
             ErrorCode::self_intersection);
   EXPECT_THAT(add({{.name = "a", .center = {3, 0, 0}, .radius = 1.0}, {.name = "a", .center = {5, 0, 0}, .radius = 1.0}}).problem, HasSubstr("already"));
@@ -213,10 +213,10 @@ TEST(ActuatorDisc, OneSidedTakesTheSecondSidesAway) {
   const TriMesh wall = test::sphere(6);
   const std::vector<ActuatorDisc> discs = {{.center = {3, 0, 0}, .radius = 1.0}};
   const TriMesh both = with_second_sides(with_discs(wall, {}, discs, k_growth, k_context), discs);
-  EXPECT_TRUE(has_sheets(both));
+  EXPECT_TRUE(has_baffles(both));
   EXPECT_EQ(Topology(both, k_context).n_boundary_halfedges(), 0u);
   const TriMesh one = one_sided(both);
-  EXPECT_FALSE(has_sheets(one));
+  EXPECT_FALSE(has_baffles(one));
   EXPECT_EQ(2 * (one.n_triangles() - wall.n_triangles()), both.n_triangles() - wall.n_triangles());
   for (const TriangleId t : one.triangles.ids()) EXPECT_EQ(one.triangles[t], both.triangles[t]);
 }

@@ -10,7 +10,7 @@
 #include "geom/base/error.h"
 #include "geom/mesh/volume_regions.h"
 #include "tests/support/halves.h"
-#include "tests/support/shapes.h"
+#include "tests/support/test_shapes.h"
 #include "tests/volmesh/domain/room.h"
 #include "volmesh/domain/complete_boundary.h"
 #include "volmesh/volume_mesh.h"
@@ -110,8 +110,8 @@ TEST(BarePlanes, GroundPlaneHasLayersAndOwnEdges) {
     // The farfield is one patch again, although layers end on four of its sides.
     EXPECT_EQ(result.mesh.patches.size(), 3u);
     if (n_layers > 0) {
-      EXPECT_EQ(rim_edges(result).size(), 1u);
-      EXPECT_GT(rim_edges(result)["farfield"], 40u);
+      EXPECT_EQ(border_edges(result).size(), 1u);
+      EXPECT_GT(border_edges(result)["farfield"], 40u);
       EXPECT_GT(result.layer.coverage, 0.95);
     }
   }
@@ -126,9 +126,9 @@ TEST(BarePlanes, GroundPlaneBetweenInflowAndOutflow) {
   options.farfield.farfield_sides = "symmetry=wall,name:ground,edge:0.7 x_min=inflow x_max=outflow";
   const VolumeMeshResult result = meshed_half(options, nullptr, 2);
   EXPECT_EQ(result.mesh.patches.size(), 5u);
-  std::map<std::string, std::size_t> rims = rim_edges(result);
-  EXPECT_EQ(rims.size(), 3u);
-  EXPECT_GT(rims["farfield"], 20u);
+  std::map<std::string, std::size_t> borders = border_edges(result);
+  EXPECT_EQ(borders.size(), 3u);
+  EXPECT_GT(borders["farfield"], 20u);
   EXPECT_GT(result.layer.coverage, 0.95);
 }
 

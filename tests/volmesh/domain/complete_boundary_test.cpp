@@ -13,9 +13,9 @@
 #include "geom/mesh/topology.h"
 #include "io/file/surface_file.h"
 #include "surfmesh/stitch/stitch_surface.h"
-#include "tests/support/constants.h"
 #include "tests/support/data.h"
-#include "tests/support/shapes.h"
+#include "tests/support/test_constants.h"
+#include "tests/support/test_shapes.h"
 #include "volmesh/domain/farfield.h"
 
 namespace sterna::volmesh {
@@ -233,7 +233,7 @@ TEST(CompleteBoundary, TakesTheUsersSurface) {
   EXPECT_THAT(names_of(named), ElementsAre("sphere:wall", "tunnel:slip"));
   const ErrorInfo beside = completion_error(moved(body, {20, 0, 0}), options);
   EXPECT_THAT(beside.problem, HasSubstr("does not enclose"));
-  EXPECT_EQ(beside.places.size(), 1u);
+  EXPECT_EQ(beside.locations.size(), 1u);
   EXPECT_THAT(completion_error(body, {{.farfield_shape = "surface"}, {}}).problem, HasSubstr("there is no surface"));
 }
 
@@ -270,7 +270,7 @@ TEST(CompleteBoundary, SaysWhatIsWrong) {
   const ErrorInfo open = completion_error(holed, {});
   EXPECT_EQ(open.code, ErrorCode::open_surface);
   EXPECT_THAT(open.problem, HasSubstr("1 open boundaries with 3 edges"));
-  EXPECT_FALSE(open.places.empty());
+  EXPECT_FALSE(open.locations.empty());
   const FarfieldOptions box{.farfield_shape = "box",
                             .farfield_from_x = -10,
                             .farfield_from_y = -5,
@@ -280,8 +280,8 @@ TEST(CompleteBoundary, SaysWhatIsWrong) {
                             .farfield_to_z = 6};
   const ErrorInfo narrow = completion_error(cube, {box, {}});
   EXPECT_THAT(narrow.problem, HasSubstr("y_max at 1.001 m: the wall is inside by 0.001 m but must be inside by 0.02 m"));
-  ASSERT_EQ(narrow.places.size(), 1u);
-  EXPECT_EQ(narrow.places[0].position.y, 1.0);
+  ASSERT_EQ(narrow.locations.size(), 1u);
+  EXPECT_EQ(narrow.locations[0].position.y, 1.0);
   EXPECT_THAT(completion_error(cube, {{.farfield_shape = "cylinder", .farfield_radius = 0.5}, {}}).problem, HasSubstr("inside the flat triangles"));
   EXPECT_THAT(completion_error(cube, {{.farfield_shape = "box", .farfield_edge = 1e-4}, {}}).problem, HasSubstr("million triangles"));
   EXPECT_THAT(completion_error(cube, {{.farfield_shape = "box", .farfield_sides = "x_mim=inflow"}, {}}).problem, HasSubstr("did you mean \"x_min\""));

@@ -11,7 +11,7 @@
 #include "geom/base/error.h"
 #include "geom/math/measures.h"
 #include "geom/mesh/topology.h"
-#include "tests/support/constants.h"
+#include "tests/support/test_constants.h"
 #include "tests/volmesh/driver/revolved_bodies.h"
 #include "volmesh/domain/farfield.h"
 
@@ -61,8 +61,8 @@ TEST(CutDiscs, OutlineIsOneClosedPolygonInThePlane) {
     const Cut cut(hub(), {{.center = {x, 0, 0}, .radius = 1.0}});
     ASSERT_EQ(cut.cuts.discs.size(), 1u);
     const CutDisc& disc = cut.cuts.discs[0];
-    EXPECT_TRUE(disc.has_outer_rim);
-    EXPECT_FALSE(disc.has_inner_rim);
+    EXPECT_TRUE(disc.has_outer_border);
+    EXPECT_FALSE(disc.has_inner_border);
     EXPECT_EQ(Topology(cut.after, k_context).n_boundary_halfedges(), 0u);
     std::map<VertexId, VertexId> next;
     for (const auto& [from, to] : disc.outline) {
@@ -92,16 +92,16 @@ TEST(CutDiscs, OutlineIsOneClosedPolygonInThePlane) {
 TEST(CutDiscs, RimsLieInFluidOrInsideBodies) {
   TriMesh wall = duct();
   append(wall, hub());
-  const auto rims = [&](double inner, double outer) {
+  const auto borders = [&](double inner, double outer) {
     const Cut cut(wall, {{.center = {0.1, 0, 0}, .radius = outer, .inner_radius = inner}});
     EXPECT_EQ(cut.cuts.discs.size(), 1u);
-    return std::array{cut.cuts.discs.at(0).has_inner_rim, cut.cuts.discs.at(0).has_outer_rim};
+    return std::array{cut.cuts.discs.at(0).has_inner_border, cut.cuts.discs.at(0).has_outer_border};
   };
-  EXPECT_EQ(rims(0.0, 1.5), (std::array{false, false}));
-  EXPECT_EQ(rims(0.3, 1.5), (std::array{false, false}));
-  EXPECT_EQ(rims(0.7, 1.5), (std::array{true, false}));
-  EXPECT_EQ(rims(0.3, 1.0), (std::array{false, true}));
-  EXPECT_EQ(rims(1.5, 2.5), (std::array{false, true}));
+  EXPECT_EQ(borders(0.0, 1.5), (std::array{false, false}));
+  EXPECT_EQ(borders(0.3, 1.5), (std::array{false, false}));
+  EXPECT_EQ(borders(0.7, 1.5), (std::array{true, false}));
+  EXPECT_EQ(borders(0.3, 1.0), (std::array{false, true}));
+  EXPECT_EQ(borders(1.5, 2.5), (std::array{false, true}));
 }
 
 TEST(CutDiscs, FreeAndOversizedDiscsCutNothing) {
@@ -136,16 +136,16 @@ ErrorInfo error_of(const TriMesh& wall, const std::vector<ActuatorDisc>& discs) 
 }
 
 TEST(CutDiscs, SaysWhereADiscCannotBe) {
-  const ErrorInfo rim = error_of(hub(), {{.name = "a", .center = {0, 0.45, 0}, .radius = 0.3}});
-  EXPECT_EQ(rim.code, ErrorCode::self_intersection);
-  EXPECT_THAT(rim.attempted, HasSubstr("\"a\""));
-  ASSERT_FALSE(rim.places.empty());
-  EXPECT_THAT(rim.places[0].what, HasSubstr("hub"));
-  EXPECT_NEAR(rim.places[0].position.x, 0.0, 1e-12);
+  const ErrorInfo border = error_of(hub(), {{.name = "a", .center = {0, 0.45, 0}, .radius = 0.3}});
+  EXPECT_EQ(border.code, ErrorCode::self_intersection);
+  EXPECT_THAT(border.attempted, HasSubstr("\"a\""));
+  ASSERT_FALSE(border.locations.empty());
+  EXPECT_THAT(border.locations[0].what, HasSubstr("hub"));
+  EXPECT_NEAR(border.locations[0].position.x, 0.0, 1e-12);
   // A disc in a face of a cube.
   const ErrorInfo flat = error_of(test::cube(4), {{.name = "b", .center = {1, 0.5, 0.5}, .radius = 2.0}});
   EXPECT_EQ(flat.code, ErrorCode::self_intersection);
-  EXPECT_THAT(flat.places.at(0).what, HasSubstr("lies in the plane of the disc"));
+  EXPECT_THAT(flat.locations.at(0).what, HasSubstr("lies in the plane of the disc"));
   EXPECT_THAT(flat.hint, HasSubstr("move the disc"));
   // Two discs through one polygon.
   const ErrorInfo both =

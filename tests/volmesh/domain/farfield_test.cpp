@@ -5,7 +5,7 @@
 #include "geom/base/error.h"
 #include "geom/math/measures.h"
 #include "geom/mesh/topology.h"
-#include "tests/support/shapes.h"
+#include "tests/support/test_shapes.h"
 
 namespace sterna::volmesh {
 namespace {
@@ -73,7 +73,7 @@ TEST(FarfieldSphere, MustEncloseTheWall) {
     const ErrorInfo error = sphere_error(wall, {.farfield_radius = radius});
     EXPECT_EQ(error.code, ErrorCode::bad_argument);
     EXPECT_THAT(error.problem, HasSubstr("reach out to"));
-    EXPECT_EQ(error.places.size(), 1u);
+    EXPECT_EQ(error.locations.size(), 1u);
   }
   EXPECT_NO_THROW(farfield_sphere(wall, {.farfield_radius = 1.2}, RunContext{}));
   // A coarse sphere is flat: its triangles come much nearer to the centre than its radius.

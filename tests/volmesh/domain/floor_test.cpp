@@ -12,7 +12,7 @@
 #include "geom/math/measures.h"
 #include "geom/mesh/topology.h"
 #include "tests/support/error_of.h"
-#include "tests/support/shapes.h"
+#include "tests/support/test_shapes.h"
 #include "tests/volmesh/domain/room.h"
 #include "volmesh/domain/complete_boundary.h"
 #include "volmesh/volume_mesh.h"
@@ -106,7 +106,7 @@ TEST(Floor, TerrainWithHouseGetsSidesAndLid) {
     EXPECT_TRUE(result.check.is_valid()) << to_text(result.check);
     const double expected = columns_of(sheet, k_lid);
     EXPECT_NEAR(result.check.total_volume, expected, 1e-9 * expected) << n_layers;
-    Edges rims = rim_edges(result);
+    Edges borders = border_edges(result);
     if (n_layers == 0) {
       EXPECT_EQ(count_cells(result.mesh).prisms, 0);
       continue;
@@ -114,10 +114,10 @@ TEST(Floor, TerrainWithHouseGetsSidesAndLid) {
     EXPECT_GT(count_cells(result.mesh).prisms, 0);
     EXPECT_GT(result.layer.coverage, 0.9);
     // The sides contain the column faces on all edges of the open boundary; the lid contains none.
-    EXPECT_EQ(rims["inflow"], static_cast<std::size_t>(k_cells_y));
-    EXPECT_EQ(rims["outflow"], static_cast<std::size_t>(k_cells_y));
-    EXPECT_EQ(rims["sides"], static_cast<std::size_t>(2 * k_cells_x));
-    EXPECT_EQ(rims["farfield"], 0u);
+    EXPECT_EQ(borders["inflow"], static_cast<std::size_t>(k_cells_y));
+    EXPECT_EQ(borders["outflow"], static_cast<std::size_t>(k_cells_y));
+    EXPECT_EQ(borders["sides"], static_cast<std::size_t>(2 * k_cells_x));
+    EXPECT_EQ(borders["farfield"], 0u);
     for (const auto& face : result.mesh.boundary_triangles) {
       const Patch& patch = result.mesh.patches[face.patch];
       const double x = patch.name == "inflow" ? 0.0 : 6.0;
@@ -140,7 +140,7 @@ TEST(Floor, BodiesAboveTheTerrainAreInTheBox) {
   const double expected = without - test::volume_of(body);
   EXPECT_NEAR(result.check.total_volume, expected, 1e-9 * expected);
   // Sides and lid are one patch unless rules separate them.
-  EXPECT_EQ(rim_edges(result)["farfield"], static_cast<std::size_t>(2 * (k_cells_x + k_cells_y)));
+  EXPECT_EQ(border_edges(result)["farfield"], static_cast<std::size_t>(2 * (k_cells_x + k_cells_y)));
 
   for (Point& p : body.points) p.z -= 5.0;
   TriMesh below = terrain(false);

@@ -11,7 +11,7 @@
 #include "geom/delaunay/planar.h"
 #include "geom/mesh/topology.h"
 #include "tests/support/halves.h"
-#include "tests/support/shapes.h"
+#include "tests/support/test_shapes.h"
 #include "tests/support/voxels.h"
 #include "tests/volmesh/domain/room.h"
 #include "volmesh/domain/domain_parts.h"
@@ -74,10 +74,10 @@ TEST(HalfDomain, HalfBallLayersEndOnSymmetryPlane) {
   EXPECT_TRUE(result.check.is_valid()) << to_text(result.check);
   const HybridMesh& mesh = result.mesh;
   EXPECT_EQ(mesh.layers.n_columns(), test::cut_off(test::sphere(8), 1, 0.0).n_triangles());
-  std::size_t n_rim = 0;
+  std::size_t n_border = 0;
   const TriMesh wall = test::cut_off(test::sphere(8), 1, 0.0);
-  n_rim = Topology(wall, RunContext{}).n_boundary_halfedges();
-  EXPECT_EQ(mesh.boundary_quads.size(), 12 * n_rim);
+  n_border = Topology(wall, RunContext{}).n_boundary_halfedges();
+  EXPECT_EQ(mesh.boundary_quads.size(), 12 * n_border);
   for (const BoundaryQuad& quad : mesh.boundary_quads) {
     EXPECT_EQ(mesh.patches[quad.patch].name, "symmetry");
     for (const NodeId node : quad.nodes) EXPECT_EQ(mesh.points[node].y, 0.0);
@@ -103,20 +103,20 @@ VolumeMeshResult meshed(const TriMesh& surface, const MeshCase& options) {
 
 TEST(HalfDomain, FloorLayersEndOnFourSidesAndEdges) {
   const VolumeMeshResult result = meshed(room([](const std::string& name) { return name == "floor" ? PatchKind::wall : PatchKind::slip; }), layers(10, 1e-3));
-  EXPECT_EQ(rim_edges(result), (Edges{{"inlet", 12}, {"outlet", 12}, {"left", 24}, {"right", 24}}));
+  EXPECT_EQ(border_edges(result), (Edges{{"inlet", 12}, {"outlet", 12}, {"left", 24}, {"right", 24}}));
   EXPECT_GT(result.layer.coverage, 0.999);
 }
 
 TEST(HalfDomain, FloorAndCeilingLayersLeaveEdgeMiddlesFree) {
   const VolumeMeshResult result =
       meshed(room([](const std::string& name) { return name == "floor" || name == "ceiling" ? PatchKind::wall : PatchKind::slip; }), layers(10, 1e-3));
-  EXPECT_EQ(rim_edges(result), (Edges{{"inlet", 24}, {"outlet", 24}, {"left", 48}, {"right", 48}}));
+  EXPECT_EQ(border_edges(result), (Edges{{"inlet", 24}, {"outlet", 24}, {"left", 48}, {"right", 48}}));
   EXPECT_GT(result.layer.coverage, 0.999);
 }
 
 TEST(HalfDomain, FourLayeredWallsEndOnInletAndOutlet) {
   const VolumeMeshResult result = meshed(room([](const std::string&) { return PatchKind::wall; }), layers(10, 1e-3));
-  EXPECT_EQ(rim_edges(result), (Edges{{"inlet", 48}, {"outlet", 48}}));
+  EXPECT_EQ(border_edges(result), (Edges{{"inlet", 48}, {"outlet", 48}}));
   EXPECT_GT(result.layer.coverage, 0.8);
 }
 
@@ -124,13 +124,13 @@ TEST(HalfDomain, StrutOnWallPassesThroughSlipCeiling) {
   const auto strut = [](int i, int j, int) { return i >= 8 && i < 12 && j >= 5 && j < 7; };
   const VolumeMeshResult result =
       meshed(room([](const std::string& name) { return name == "floor" ? PatchKind::wall : PatchKind::slip; }, strut), layers(10, 1e-3));
-  EXPECT_EQ(rim_edges(result), (Edges{{"ceiling", 12}, {"inlet", 12}, {"outlet", 12}, {"left", 24}, {"right", 24}}));
+  EXPECT_EQ(border_edges(result), (Edges{{"ceiling", 12}, {"inlet", 12}, {"outlet", 12}, {"left", 24}, {"right", 24}}));
 }
 
 TEST(HalfDomain, AWingOnASlipSideWall) {
   const auto wing = [](int i, int j, int k) { return i >= 8 && i < 14 && j < 7 && k >= 5 && k < 7; };
   const VolumeMeshResult result = meshed(room([](const std::string&) { return PatchKind::slip; }, wing), layers(10, 1e-3));
-  EXPECT_EQ(rim_edges(result), (Edges{{"left", 16}}));
+  EXPECT_EQ(border_edges(result), (Edges{{"left", 16}}));
 }
 
 TEST(HalfDomain, BodyAwayFromSlipWallsNeedsNoFarfield) {
@@ -156,7 +156,7 @@ TEST(HalfDomain, DuctLayersEndOnFanFaceAndNozzle) {
     return {"nacelle", PatchKind::wall};
   });
   const VolumeMeshResult result = meshed(surface, layers(8, 1e-3));
-  EXPECT_EQ(rim_edges(result), (Edges{{"fan", 24}, {"nozzle", 24}}));
+  EXPECT_EQ(border_edges(result), (Edges{{"fan", 24}, {"nozzle", 24}}));
 }
 
 /// A body in free air whose back is a nozzle: at the edge to the jet the fluid spans 270 degrees.
@@ -217,7 +217,7 @@ TEST(HalfDomain, NonPlanarSymmetryPatchIsAnError) {
   } catch (const Error& error) {
     EXPECT_EQ(error.code(), ErrorCode::bad_argument);
     EXPECT_NE(error.info().problem.find("\"symmetry\" is not flat"), std::string::npos) << error.what();
-    EXPECT_EQ(error.info().places.size(), 1u);
+    EXPECT_EQ(error.info().locations.size(), 1u);
   }
 }
 

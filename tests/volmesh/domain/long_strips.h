@@ -5,7 +5,7 @@
 #include <cstdint>
 
 #include "geom/mesh/tri_mesh.h"
-#include "tests/support/constants.h"
+#include "tests/support/test_constants.h"
 
 namespace sterna::volmesh {
 

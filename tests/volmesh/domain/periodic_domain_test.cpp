@@ -8,13 +8,13 @@
 
 #include "geom/mesh/periodic.h"
 #include "geom/mesh/topology.h"
-#include "tests/support/constants.h"
 #include "tests/support/error_of.h"
-#include "tests/support/shapes.h"
+#include "tests/support/test_constants.h"
+#include "tests/support/test_shapes.h"
 #include "tests/volmesh/domain/room.h"
 #include "volmesh/domain/complete_boundary.h"
 #include "volmesh/domain/periodic_sides.h"
-#include "volmesh/site/site.h"
+#include "volmesh/layer_domain/layer_domain.h"
 #include "volmesh/stages.h"
 
 namespace sterna::volmesh {
@@ -50,7 +50,7 @@ VolumeMeshResult matched(const TriMesh& surface, const MeshCase& options) {
 
 TEST(PeriodicDomain, AWingBetweenTwoSides) {
   const VolumeMeshResult result = matched(room(all_slip, is_wing), periodic_layers(10, 1e-3));
-  EXPECT_EQ(rim_edges(result), (Edges{{"left", 16}, {"right", 16}}));
+  EXPECT_EQ(border_edges(result), (Edges{{"left", 16}, {"right", 16}}));
   EXPECT_EQ(result.check.periodic[0].first, "left");
   EXPECT_EQ(result.check.periodic[0].translation, Vec3(0, 2, 0));
   EXPECT_EQ(result.layer.collapsed_area, 0.0);
@@ -74,7 +74,7 @@ TEST(PeriodicDomain, LayersRequestedOnSidesAreRefused) {
 TEST(PeriodicDomain, FloorLayersHaveEqualEdgesOnBothSides) {
   const VolumeMeshResult result =
       matched(room([](const std::string& name) { return name == "floor" ? PatchKind::wall : PatchKind::slip; }, is_wing), periodic_layers(10, 1e-3));
-  EXPECT_EQ(rim_edges(result), (Edges{{"inlet", 12}, {"outlet", 12}, {"left", 40}, {"right", 40}}));
+  EXPECT_EQ(border_edges(result), (Edges{{"inlet", 12}, {"outlet", 12}, {"left", 40}, {"right", 40}}));
 }
 
 TEST(PeriodicDomain, TwoDirectionsShareTheirEdges) {
@@ -82,7 +82,7 @@ TEST(PeriodicDomain, TwoDirectionsShareTheirEdges) {
   MeshCase options = periodic_layers(8, 1e-3, {{"left", "right"}, {"ceiling", "floor"}});
   options.patches = {{.names = "inlet", .kind = "wall"}};
   const VolumeMeshResult result = matched(surface, options);
-  EXPECT_EQ(rim_edges(result), (Edges{{"ceiling", 12}, {"floor", 12}, {"left", 12}, {"right", 12}}));
+  EXPECT_EQ(border_edges(result), (Edges{{"ceiling", 12}, {"floor", 12}, {"left", 12}, {"right", 12}}));
 }
 
 /// The wing is bent, so that it meets the two sides at different angles, and the domain is sheared: the translation is not normal to the sides.
@@ -110,15 +110,15 @@ TEST(PeriodicDomain, RidgesGoOnBeyondTheSides) {
     const VolumeMeshResult result = matched(surface, options);
     EXPECT_FALSE(result.mesh.hexahedra.empty());
     // All four edges are opened from side to side, in three sectors each, or four if they turn by more than 90 degrees.
-    const MeshingSite site(surface, options, k_context);
-    EXPECT_EQ(site.domain.ridges.feet.size(), 4u * 13u) << bend;
-    EXPECT_TRUE(site.domain.ridges.ends.empty()) << bend;
+    const LayerDomain layer_domain(surface, options, k_context);
+    EXPECT_EQ(layer_domain.domain.ridges.base_vertices.size(), 4u * 13u) << bend;
+    EXPECT_TRUE(layer_domain.domain.ridges.ends.empty()) << bend;
     std::array<int, 2> n_triangles = {0, 0};
     for (const sterna::BoundaryTriangle& face : result.mesh.boundary_triangles)
-      for (const OpenedRidges::Foot& foot : site.domain.ridges.feet)
+      for (const OpenedRidges::BaseVertex& base_vertex : layer_domain.domain.ridges.base_vertices)
         for (std::size_t k = 0; k < 2; ++k)
           if (result.mesh.patches[face.patch].name == (k == 0 ? "left" : "right"))
-            n_triangles[k] += std::ranges::any_of(face.nodes, [&](NodeId n) { return result.mesh.points[n] == foot.point; }) ? 1 : 0;
+            n_triangles[k] += std::ranges::any_of(face.nodes, [&](NodeId n) { return result.mesh.points[n] == base_vertex.point; }) ? 1 : 0;
     EXPECT_EQ(n_triangles[0], n_triangles[1]) << bend;
     EXPECT_GE(n_triangles[0], 12) << bend;
     const VolumeMeshResult one = volume_mesh(surface, options, RunContext({.threads = 1}));
@@ -156,7 +156,7 @@ TEST(PeriodicDomain, SidesThatAreAddedInPlanes) {
   MeshCase options = periodic_layers(10, 1e-3, {{"symmetry_y_min", "symmetry_y_max"}});
   options.farfield.farfield_shape = "box";
   const VolumeMeshResult result = matched(surface, options);
-  EXPECT_EQ(rim_edges(result), (Edges{{"symmetry_y_min", 24}, {"symmetry_y_max", 24}}));
+  EXPECT_EQ(border_edges(result), (Edges{{"symmetry_y_min", 24}, {"symmetry_y_max", 24}}));
 }
 
 TEST(PeriodicDomain, DifferentTriangulationOfSecondSideIsReplaced) {
@@ -196,9 +196,9 @@ TEST(PeriodicDomain, WallKeepsItsTrianglesBesideReplacedSide) {
     if (distance(p, {0.5, 2.0, 0.5}) < 1e-9) p.x += 0.03;
   TriMesh joined = sorted;
   ASSERT_FALSE(join_periodic_sides(joined, std::array{PeriodicNames{"left", "right"}}, k_context).sources.empty());
-  const MeshingSite site(sorted, periodic_layers(4, 1e-3), k_context);
-  for (const TriangleId t : site.domain.wall.triangles.ids()) {
-    const auto of_wall = corners(site.domain.wall, t), of_surface = corners(sorted, site.domain.wall2surface[t]);
+  const LayerDomain layer_domain(sorted, periodic_layers(4, 1e-3), k_context);
+  for (const TriangleId t : layer_domain.domain.wall.triangles.ids()) {
+    const auto of_wall = corners(layer_domain.domain.wall, t), of_surface = corners(sorted, layer_domain.domain.wall2surface[t]);
     for (std::size_t k = 0; k < 3; ++k) EXPECT_LT(distance(of_wall[k], of_surface[k]), 1e-12);
   }
 }
@@ -252,9 +252,9 @@ TEST(PeriodicDomain, MismatchesAreReportedWithLocationsAndDistances) {
     if (p.y == 2.0 && std::abs(p.x - 4.0 / 3.0) < 1e-9 && p.z < 1e-9) p.x += 0.08;  // on the edge to the floor, too far to be moved back
   const ErrorInfo info = problem_of(moved, {{"left", "right"}});
   EXPECT_THAT(info.problem, HasSubstr("2 border vertices have no partner"));
-  ASSERT_EQ(info.places.size(), 2u);
-  EXPECT_THAT(info.places[0].what, HasSubstr("0.08 m away"));
-  EXPECT_NEAR(info.places[0].position.x, 4.0 / 3.0, 1e-9);
+  ASSERT_EQ(info.locations.size(), 2u);
+  EXPECT_THAT(info.locations[0].what, HasSubstr("0.08 m away"));
+  EXPECT_NEAR(info.locations[0].position.x, 4.0 / 3.0, 1e-9);
 
   // The wing ends before the right side, and a patch without layers has its outline there.
   const TriMesh patched = test::voxel_boundary(

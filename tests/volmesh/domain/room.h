@@ -33,7 +33,7 @@ inline TriMesh room(const std::function<PatchKind(const std::string&)>& kind_of,
 }
 
 /// Counts the boundary quadrilaterals of a patch over the layers: edges of the footprint in the patch.
-inline std::map<std::string, std::size_t> rim_edges(const VolumeMeshResult& result) {
+inline std::map<std::string, std::size_t> border_edges(const VolumeMeshResult& result) {
   std::map<std::string, std::size_t> n;
   for (const BoundaryQuad& quad : result.mesh.boundary_quads) ++n[result.mesh.patches[quad.patch].name];
   for (auto& [name, count] : n) count /= static_cast<std::size_t>(result.mesh.layers.n_layers);

@@ -9,9 +9,9 @@
 #include "geom/mesh/periodic.h"
 #include "geom/model/shapes.h"
 #include "surfmesh/model/surface_mesh.h"
-#include "tests/support/constants.h"
 #include "tests/support/error_of.h"
 #include "tests/support/rows.h"
+#include "tests/support/test_constants.h"
 #include "tests/volmesh/domain/room.h"
 #include "volmesh/volume_mesh.h"
 
@@ -58,9 +58,9 @@ TEST(Row, BarThroughBothSidesFloorAndCeiling) {
   options.periodic.push_back({"tunnel_floor", "tunnel_ceiling"});
   const VolumeMeshResult result = volume_mesh(surface, options, k_context);
   expect_matched(result, 2);
-  const std::map<std::string, std::size_t> rims = rim_edges(result);
-  EXPECT_EQ(rims.at("tunnel_left"), rims.at("tunnel_right"));
-  EXPECT_GE(rims.at("tunnel_left"), 16u);
+  const std::map<std::string, std::size_t> borders = border_edges(result);
+  EXPECT_EQ(borders.at("tunnel_left"), borders.at("tunnel_right"));
+  EXPECT_GE(borders.at("tunnel_left"), 16u);
 }
 
 TEST(Row, WingsWithSharpAndBluntTrailingEdges) {

@@ -3,7 +3,7 @@
 
 #include <gtest/gtest.h>
 
-#include "tests/support/constants.h"
+#include "tests/support/test_constants.h"
 #include "volmesh/stages.h"
 #include "volmesh/volume_mesh.h"
 
@@ -32,7 +32,7 @@ inline void expect_same_mesh(const VolumeMeshResult& result, const VolumeMeshRes
 
 struct Continued {
   VolumeMeshResult whole;
-  int n_rounds = 0;  ///< ClosedFans::n_rounds
+  int n_rounds = 0;  ///< ClosedMultiNormals::n_rounds
 };
 
 /// Stops a run after each step and continues it; the envelope is that of the last round in which multi-normal fans were closed.

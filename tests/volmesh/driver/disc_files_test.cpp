@@ -8,7 +8,7 @@
 #include "tests/support/data.h"
 #include "tests/support/process.h"
 #include "tests/volmesh/driver/revolved_bodies.h"
-#include "volmesh/domain/disc_sheets.h"
+#include "volmesh/domain/disc_baffles.h"
 #include "volmesh/volume_mesh.h"
 
 namespace sterna::volmesh {

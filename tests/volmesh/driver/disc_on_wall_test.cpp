@@ -8,13 +8,13 @@
 
 #include "geom/base/error.h"
 #include "geom/math/measures.h"
-#include "geom/mesh/sheets.h"
-#include "tests/support/constants.h"
+#include "geom/mesh/baffles.h"
 #include "tests/support/error_of.h"
 #include "tests/support/halves.h"
+#include "tests/support/test_constants.h"
 #include "tests/volmesh/domain/room.h"
 #include "tests/volmesh/driver/revolved_bodies.h"
-#include "volmesh/domain/disc_sheets.h"
+#include "volmesh/domain/disc_baffles.h"
 #include "volmesh/stages.h"
 
 namespace sterna::volmesh {
@@ -72,13 +72,13 @@ void expect_disc(const VolumeMeshResult& result, const ActuatorDisc& disc, doubl
   EXPECT_GT(front.n_quads, 100u);
   EXPECT_LE(std::max(front.off_plane, back.off_plane), 1e-12 * disc.radius);
 
-  const SheetSides sides = find_sheet_sides(mesh);
+  const BaffleSides sides = find_baffle_sides(mesh);
   ASSERT_FALSE(sides.empty());
   std::set<std::uint32_t> shared, nodes;
   std::size_t n_single = 0;
   const auto look = [&](std::size_t face, std::span<const NodeId> of_face, PatchId patch) {
     if (mesh.patches[patch].name != disc.name) return;
-    n_single += !sides.is_sheet(face);
+    n_single += !sides.is_baffle(face);
     std::set<std::uint32_t> other;
     const std::size_t on = sides.other_side[face];
     if (on < mesh.boundary_triangles.size()) {
@@ -227,15 +227,15 @@ TEST(DiscOnWall, SaysWhereItCannotBe) {
     return test::error_info_of([&] { volume_mesh(hub(6), eight_layers_with(std::move(discs)), k_context); });
   };
   // The rim intersects the wall.
-  const ErrorInfo rim = mesh({{.name = "prop", .center = {0, 0.4, 0}, .radius = 0.3}});
-  EXPECT_EQ(rim.code, ErrorCode::self_intersection);
-  EXPECT_THAT(rim.attempted, HasSubstr("prop"));
-  EXPECT_THAT(rim.problem, HasSubstr("circle of the disc"));
-  EXPECT_FALSE(rim.places.empty());
+  const ErrorInfo border = mesh({{.name = "prop", .center = {0, 0.4, 0}, .radius = 0.3}});
+  EXPECT_EQ(border.code, ErrorCode::self_intersection);
+  EXPECT_THAT(border.attempted, HasSubstr("prop"));
+  EXPECT_THAT(border.problem, HasSubstr("circle of the disc"));
+  EXPECT_FALSE(border.locations.empty());
   // A disc beyond the farfield.
   const ErrorInfo far = mesh({{.name = "prop", .center = {0, 0, 0}, .radius = 40.0}});
   EXPECT_EQ(far.code, ErrorCode::self_intersection);
-  EXPECT_THAT(far.places.at(0).what, HasSubstr("farfield"));
+  EXPECT_THAT(far.locations.at(0).what, HasSubstr("farfield"));
   // Discs that cross each other.
   EXPECT_EQ(mesh({{.name = "a", .center = {0, 0, 0}, .radius = 1.0}, {.name = "b", .center = {0.3, 0, 0}, .axis = {1, 0.5, 0}, .radius = 1.0}}).code,
             ErrorCode::self_intersection);

@@ -2,9 +2,9 @@
 #include <gmock/gmock.h>
 
 #include "geom/base/error.h"
-#include "geom/mesh/sheets.h"
-#include "tests/support/constants.h"
-#include "tests/support/shapes.h"
+#include "geom/mesh/baffles.h"
+#include "tests/support/test_constants.h"
+#include "tests/support/test_shapes.h"
 #include "volmesh/stages.h"
 
 namespace sterna::volmesh {
@@ -41,7 +41,7 @@ TEST(Discs, PropellerBeforeBodyAndRingAroundIt) {
       EXPECT_GT(n_triangles_of(result.mesh, name), 50u);
       EXPECT_EQ(n_triangles_of(result.mesh, name), n_triangles_of(result.mesh, name + ".back"));
     }
-    EXPECT_FALSE(find_sheet_sides(result.mesh).empty());
+    EXPECT_FALSE(find_baffle_sides(result.mesh).empty());
     EXPECT_GT(result.layer.coverage, 0.99);
   }
 }
@@ -69,7 +69,7 @@ TEST(Discs, DiscRimThroughBodyIsErrorWithLocations) {
     FAIL() << "accepted";
   } catch (const Error& error) {
     EXPECT_EQ(error.code(), ErrorCode::self_intersection);
-    EXPECT_FALSE(error.info().places.empty());
+    EXPECT_FALSE(error.info().locations.empty());
   }
 }
 

@@ -7,11 +7,11 @@
 
 #include "geom/mesh/find_crossings.h"
 #include "geom/mesh/topology.h"
-#include "tests/support/constants.h"
 #include "tests/support/error_of.h"
 #include "tests/support/halves.h"
 #include "tests/support/rooms.h"
-#include "tests/support/shapes.h"
+#include "tests/support/test_constants.h"
+#include "tests/support/test_shapes.h"
 #include "tests/support/voxels.h"
 
 namespace sterna::volmesh {

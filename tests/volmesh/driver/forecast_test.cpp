@@ -11,7 +11,7 @@
 #include "surfmesh/stitch/stitch_surface.h"
 #include "tests/support/data.h"
 #include "tests/support/error_of.h"
-#include "tests/support/shapes.h"
+#include "tests/support/test_shapes.h"
 #include "volmesh/forecast.h"
 #include "volmesh/volume_mesh.h"
 

@@ -5,7 +5,7 @@
 #include "io/file/surface_file.h"
 #include "surfmesh/stitch/stitch_surface.h"
 #include "tests/support/data.h"
-#include "tests/support/shapes.h"
+#include "tests/support/test_shapes.h"
 #include "volmesh/volume_mesh.h"
 
 namespace sterna::volmesh {
@@ -51,7 +51,7 @@ TEST_P(TooThick, EndsInAValidMesh) {
   }
   EXPECT_NEAR(full / area, layer.coverage, 1e-9);
   EXPECT_EQ(layer.collapsed.empty(), layer.collapsed_area == 0.0);
-  for (const ErrorPlace& place : layer.collapsed) EXPECT_NE(place.what.find("of patch"), std::string::npos);
+  for (const ErrorLocation& location : layer.collapsed) EXPECT_NE(location.what.find("of patch"), std::string::npos);
   EXPECT_EQ(layer.warnings.empty(), layer.compressed_area <= 0.5);
   for (const std::string& warning : layer.warnings) EXPECT_NE(std::find(warnings.begin(), warnings.end(), warning), warnings.end());
 }

@@ -7,7 +7,7 @@
 #include "geom/base/error.h"
 #include "tests/support/data.h"
 #include "tests/support/error_of.h"
-#include "tests/support/shapes.h"
+#include "tests/support/test_shapes.h"
 #include "volmesh/tetra/engine_process.h"
 #include "volmesh/volume_mesh.h"
 

@@ -10,8 +10,8 @@
 #include <string>
 
 #include "geom/base/error.h"
-#include "tests/support/constants.h"
-#include "tests/support/shapes.h"
+#include "tests/support/test_constants.h"
+#include "tests/support/test_shapes.h"
 #include "tests/volmesh/domain/long_strips.h"
 #include "tests/volmesh/domain/room.h"
 #include "tests/volmesh/domain/sharp_wing.h"

@@ -8,17 +8,17 @@
 #include "geom/mesh/bvh.h"
 #include "io/file/surface_file.h"
 #include "surfmesh/stitch/stitch_surface.h"
-#include "tests/support/constants.h"
 #include "tests/support/data.h"
+#include "tests/support/test_constants.h"
 #include "volmesh/volume_mesh.h"
 
 namespace sterna::volmesh {
 namespace {
 
 struct Case {
-  const char* file;             ///< below the surfaces of tests/data/shared
-  double asked_coverage;        ///< required share of the area with lines of 0.9 h_target; 0: the surface has no room for it
-  bool has_open_places = true;  ///< false: every triangle has a vertex at which the wall itself obstructs the layer
+  const char* file;                ///< below the surfaces of tests/data/shared
+  double requested_coverage;       ///< required share of the area with lines of 0.9 h_target; 0: the surface has no room for it
+  bool has_open_locations = true;  ///< false: every triangle has a vertex at which the wall itself obstructs the layer
 };
 
 /// Unobstructed locations, judged by the wall alone. At such a vertex, a ball that touches the wall from the fluid side, with a radius of two target heights,
@@ -33,7 +33,7 @@ constexpr double k_reach = 2.0;        ///< radius of the ball over the target h
 constexpr double k_ball_slack = 0.02;  ///< share of the radius: on a curved wall of flat triangles the ball slightly cuts the facets beside the vertex
 constexpr double k_full_height = 0.9;  ///< share of the target height, as in the definition of coverage
 
-OpenPlaces open_places_of(const HybridMesh& mesh) {
+OpenPlaces open_locations_of(const HybridMesh& mesh) {
   const LayerBlock& layers = mesh.layers;
   TriMesh wall;
   wall.patches.push_back({"wall", PatchKind::wall});
@@ -107,10 +107,10 @@ TEST_P(RealSurface, GivesAValidMeshWithItsLayers) {
     explained += share;
   }
   EXPECT_NEAR(explained, 1.0, 1e-9);
-  const OpenPlaces open = open_places_of(result.mesh);
-  EXPECT_GE(open.long_lines, GetParam().asked_coverage);
+  const OpenPlaces open = open_locations_of(result.mesh);
+  EXPECT_GE(open.long_lines, GetParam().requested_coverage);
   EXPECT_LE(open.low, k_low_without_hindrance);
-  if (GetParam().has_open_places) {
+  if (GetParam().has_open_locations) {
     EXPECT_GE(open.share, k_enough_open);
   }
   EXPECT_LE(result.layer.collapsed.size(), 3u);

@@ -12,18 +12,18 @@
 
 #include "io/file/surface_file.h"
 #include "surfmesh/stitch/stitch_surface.h"
-#include "tests/support/constants.h"
 #include "tests/support/data.h"
 #include "tests/support/error_of.h"
-#include "tests/support/shapes.h"
+#include "tests/support/test_constants.h"
+#include "tests/support/test_shapes.h"
 #include "tests/volmesh/domain/room.h"
 #include "tests/volmesh/domain/sharp_wing.h"
 #include "tests/volmesh/driver/continued.h"
 #include "volmesh/domain/open_ridges.h"
 #include "volmesh/envelope/build_envelope.h"
 #include "volmesh/envelope/patch_layers.h"
+#include "volmesh/layer_domain/layer_domain.h"
 #include "volmesh/parts/warm_start.h"
-#include "volmesh/site/site.h"
 #include "volmesh/stages.h"
 #include "volmesh/volume_mesh.h"
 
@@ -51,9 +51,9 @@ std::vector<std::array<std::array<double, 3>, 3>> wall_faces(const HybridMesh& m
   std::vector<std::array<std::array<double, 3>, 3>> faces;
   for (const sterna::BoundaryTriangle& face : mesh.boundary_triangles) {
     if (mesh.patches[face.patch].name != "wing") continue;
-    auto& places = faces.emplace_back();
-    for (std::size_t k = 0; k < 3; ++k) places[k] = std::array{mesh.points[face.nodes[k]].x, mesh.points[face.nodes[k]].y, mesh.points[face.nodes[k]].z};
-    std::ranges::sort(places);
+    auto& locations = faces.emplace_back();
+    for (std::size_t k = 0; k < 3; ++k) locations[k] = std::array{mesh.points[face.nodes[k]].x, mesh.points[face.nodes[k]].y, mesh.points[face.nodes[k]].z};
+    std::ranges::sort(locations);
   }
   std::ranges::sort(faces);
   return faces;
@@ -63,7 +63,7 @@ TEST(Ridges, OpenedWallIsClosedAndContainsGivenWall) {
   const TriMesh wall = sharp_wing(30.0, 8);
   const Domain domain = opened(wall, {.open_ridges = "always"});
   const OpenedRidges& ridges = domain.ridges;
-  EXPECT_EQ(ridges.feet.size(), 7u);  // the ridge ends at the two corners
+  EXPECT_EQ(ridges.base_vertices.size(), 7u);  // the ridge ends at the two corners
   EXPECT_EQ(ridges.end_vertices.size(), 2u);
   EXPECT_EQ(domain.wall.n_vertices(), wall.n_vertices() + 7 * 5);  // 150 degrees in five sectors
   EXPECT_EQ(ridges.quads.size(), 6u * 5u);
@@ -73,9 +73,9 @@ TEST(Ridges, OpenedWallIsClosedAndContainsGivenWall) {
   // The opened wall equals the given wall once virtual triangles are removed and the growth lines of each ridge base vertex are merged.
   ASSERT_EQ(ridges.n_given_triangles, wall.n_triangles());
   for (const TriangleId t : wall.triangles.ids())
-    for (std::size_t k = 0; k < 3; ++k) EXPECT_EQ(ridges.foot[domain.wall.triangles[t][k]], wall.triangles[t][k]);
-  for (const OpenedRidges::Foot& foot : ridges.feet) EXPECT_EQ(foot.point, wall.points[foot.vertex]);
-  for (const VertexId v : domain.wall.points.ids()) EXPECT_LE(distance(domain.wall.points[v], wall.points[ridges.foot[v]]), 1.0000001e-5);
+    for (std::size_t k = 0; k < 3; ++k) EXPECT_EQ(ridges.base_vertex[domain.wall.triangles[t][k]], wall.triangles[t][k]);
+  for (const OpenedRidges::BaseVertex& base_vertex : ridges.base_vertices) EXPECT_EQ(base_vertex.point, wall.points[base_vertex.vertex]);
+  for (const VertexId v : domain.wall.points.ids()) EXPECT_LE(distance(domain.wall.points[v], wall.points[ridges.base_vertex[v]]), 1.0000001e-5);
 }
 
 TEST(Ridges, ClosedVerticesAndFlatEdgesStayClosed) {
@@ -83,9 +83,9 @@ TEST(Ridges, ClosedVerticesAndFlatEdgesStayClosed) {
   EXPECT_TRUE(opened(wall, {.open_ridges = "never"}).ridges.is_empty());
   EXPECT_TRUE(opened(wall, {.open_ridges = "always", .open_angle = 2.8}).ridges.is_empty());  // the edge turns by 2.62
   const Domain all = opened(wall, {.open_ridges = "always"});
-  const VertexId middle = all.ridges.feet[3].vertex;
+  const VertexId middle = all.ridges.base_vertices[3].vertex;
   const Domain parted = opened(wall, {.open_ridges = "always"}, {middle});
-  EXPECT_EQ(parted.ridges.feet.size(), 6u);
+  EXPECT_EQ(parted.ridges.base_vertices.size(), 6u);
   EXPECT_EQ(parted.ridges.end_vertices.size(), 3u);
 }
 
@@ -125,17 +125,17 @@ TriMesh two_wings() {
 TEST(Ridges, PatchesSayWhetherTheirsAreOpened) {
   const TriMesh wall = two_wings();
   const std::vector<PatchRule> wing_only = {{.names = "wing", .open_ridges = "always"}}, not_tail = {{.names = "tail", .open_ridges = "never"}};
-  const auto feet = [&](bool of_all, const std::vector<PatchRule>& rules) {
+  const auto base_vertices = [&](bool of_all, const std::vector<PatchRule>& rules) {
     Domain domain;
     domain.wall = wall;
     open_ridges({}, patches_with_open_ridges(wall.patches, of_all, rules), 1e-3, {}, domain, k_context);
     std::size_t n_behind = 0;
-    for (const OpenedRidges::Foot& foot : domain.ridges.feet) n_behind += foot.point.x > 3.0 ? 1 : 0;
-    return std::array{domain.ridges.feet.size(), n_behind};
+    for (const OpenedRidges::BaseVertex& base_vertex : domain.ridges.base_vertices) n_behind += base_vertex.point.x > 3.0 ? 1 : 0;
+    return std::array{domain.ridges.base_vertices.size(), n_behind};
   };
-  EXPECT_EQ(feet(true, {}), (std::array<std::size_t, 2>{14, 7}));
-  EXPECT_EQ(feet(false, wing_only), (std::array<std::size_t, 2>{7, 0}));
-  EXPECT_EQ(feet(true, not_tail), (std::array<std::size_t, 2>{7, 0}));
+  EXPECT_EQ(base_vertices(true, {}), (std::array<std::size_t, 2>{14, 7}));
+  EXPECT_EQ(base_vertices(false, wing_only), (std::array<std::size_t, 2>{7, 0}));
+  EXPECT_EQ(base_vertices(true, not_tail), (std::array<std::size_t, 2>{7, 0}));
   MeshCase mesh_case = wing_case(false);
   mesh_case.patches = wing_only;
   const VolumeMeshResult mesh = volume_mesh(wall, mesh_case, k_context);
@@ -157,18 +157,19 @@ TEST(Ridges, EqualForAnyNumberOfThreads) {
 
 TEST(Ridges, HalfModelFansLieInItsPlane) {
   const TriMesh wall = half_sharp_wing(30.0, 6);
-  const MeshingSite site(wall, wing_case(true), k_context);
-  const Domain& domain = site.domain;
-  ASSERT_EQ(domain.ridges.feet.size(), 6u);  // up to the plane; the ridge ends at the corner of the tip
+  const LayerDomain layer_domain(wall, wing_case(true), k_context);
+  const Domain& domain = layer_domain.domain;
+  ASSERT_EQ(domain.ridges.base_vertices.size(), 6u);  // up to the plane; the ridge ends at the corner of the tip
   EXPECT_EQ(domain.ridges.end_vertices.size(), 1u);
-  const auto in_plane = std::ranges::find_if(domain.ridges.feet, [](const OpenedRidges::Foot& foot) { return foot.point.y == 0.0; });
-  ASSERT_NE(in_plane, domain.ridges.feet.end());
+  const auto in_plane =
+      std::ranges::find_if(domain.ridges.base_vertices, [](const OpenedRidges::BaseVertex& base_vertex) { return base_vertex.point.y == 0.0; });
+  ASSERT_NE(in_plane, domain.ridges.base_vertices.end());
   EXPECT_EQ(in_plane->middle.y, 0.0);
   int n_lines = 0;
   for (const VertexId v : domain.wall.points.ids()) {
-    if (domain.ridges.foot[v] != in_plane->vertex) continue;
+    if (domain.ridges.base_vertex[v] != in_plane->vertex) continue;
     EXPECT_EQ(domain.wall.points[v].y, 0.0);
-    EXPECT_EQ(site.base.constraint[v].freedom, Freedom::plane);
+    EXPECT_EQ(layer_domain.base.constraint[v].freedom, Freedom::plane);
     ++n_lines;
   }
   EXPECT_EQ(n_lines, 6);
@@ -189,12 +190,12 @@ TEST(Ridges, HalfModelFansLieInItsPlane) {
 }
 
 TEST(Ridges, RidgesBentAtSymmetryPlaneEndBeforeIt) {
-  for (const auto& [sweep, n_feet] : {std::pair(0.5, 6), std::pair(1.0, 4)}) {  // tangents: 27 and 45 degrees
+  for (const auto& [sweep, n_base_vertices] : {std::pair(0.5, 6), std::pair(1.0, 4)}) {  // tangents: 27 and 45 degrees
     TriMesh wall = half_sharp_wing(30.0, 6);
     for (Point& p : wall.points) p.x += sweep * p.y;
-    const MeshingSite site(wall, wing_case(true), k_context);
-    const auto is_inboard = [](const OpenedRidges::Foot& foot) { return foot.point.y < 0.55; };  // the edges of the tip are ridges, too
-    EXPECT_EQ(std::ranges::count_if(site.domain.ridges.feet, is_inboard), n_feet) << sweep;
+    const LayerDomain layer_domain(wall, wing_case(true), k_context);
+    const auto is_inboard = [](const OpenedRidges::BaseVertex& base_vertex) { return base_vertex.point.y < 0.55; };  // the edges of the tip are ridges, too
+    EXPECT_EQ(std::ranges::count_if(layer_domain.domain.ridges.base_vertices, is_inboard), n_base_vertices) << sweep;
   }
 }
 
@@ -239,7 +240,7 @@ TEST(Ridges, MembersOfAFamilyHaveThemToo) {
 }
 
 TEST(Ridges, EnvelopesOfDeformedWallsStartFromReference) {
-  MeshingSite reference(sharp_wing(35.0, 8), wing_case(true), k_context);
+  LayerDomain reference(sharp_wing(35.0, 8), wing_case(true), k_context);
   const StartingEnvelope start{reference.base.wall.points, build_envelope(reference.base, reference.options.envelope, reference.collider, k_context)};
   TriMesh bent = sharp_wing(35.0, 8);
   for (Point& p : bent.points) p.z += 0.05 * p.y * p.y;
@@ -326,9 +327,9 @@ void expect_opened_wall_is_the_given_one(const TriMesh& wall, const Domain& doma
   EXPECT_EQ(euler(domain.wall), euler(wall));
   ASSERT_EQ(ridges.n_given_triangles, wall.n_triangles());
   for (const TriangleId t : wall.triangles.ids())
-    for (std::size_t k = 0; k < 3; ++k) EXPECT_EQ(ridges.foot[domain.wall.triangles[t][k]], wall.triangles[t][k]);
+    for (std::size_t k = 0; k < 3; ++k) EXPECT_EQ(ridges.base_vertex[domain.wall.triangles[t][k]], wall.triangles[t][k]);
   for (const auto& t : ridges.corners)
-    for (const VertexId v : t) EXPECT_EQ(ridges.foot[v], ridges.foot[t[0]]);
+    for (const VertexId v : t) EXPECT_EQ(ridges.base_vertex[v], ridges.base_vertex[t[0]]);
 }
 
 TEST(Ridges, MeetInCorners) {
@@ -336,16 +337,16 @@ TEST(Ridges, MeetInCorners) {
   const RidgeOptions options = cube_case().ridges;
   const Domain domain = opened(wall, options);
   expect_opened_wall_is_the_given_one(wall, domain);
-  EXPECT_EQ(domain.ridges.feet.size(), 12u * 5u + 8u);
+  EXPECT_EQ(domain.ridges.base_vertices.size(), 12u * 5u + 8u);
   EXPECT_TRUE(domain.ridges.ends.empty());
   EXPECT_EQ(domain.ridges.corners.size(), 8u * 3u * 3u);  // 90 degrees in three sectors on each of three ridges
   EXPECT_EQ(domain.wall.n_vertices(), wall.n_vertices() + 12 * 5 * 3 + 8 * 9);
   // The middle growth line of a corner makes equal angles with all three sides.
-  const VertexId first = domain.ridges.foot[domain.ridges.corners.front()[2]];
-  const auto foot = std::ranges::find(domain.ridges.feet, first, &OpenedRidges::Foot::vertex);
-  EXPECT_NEAR(foot->visibility, 1.0 / std::sqrt(3.0), 1e-12);
+  const VertexId first = domain.ridges.base_vertex[domain.ridges.corners.front()[2]];
+  const auto base_vertex = std::ranges::find(domain.ridges.base_vertices, first, &OpenedRidges::BaseVertex::vertex);
+  EXPECT_NEAR(base_vertex->visibility, 1.0 / std::sqrt(3.0), 1e-12);
   // Ridges end at a corner that is to stay closed.
-  const VertexId closed = domain.ridges.foot[domain.ridges.corners.front()[0]];
+  const VertexId closed = domain.ridges.base_vertex[domain.ridges.corners.front()[0]];
   const Domain parted = opened(wall, options, {closed});
   expect_opened_wall_is_the_given_one(wall, parted);
   EXPECT_EQ(parted.ridges.end_vertices, std::vector<VertexId>{closed});
@@ -356,7 +357,7 @@ TEST(Ridges, EdgesBetweenTwoCornersAreOpenedToo) {
   const TriMesh wall = test::cube(1);  // no vertex inside a ridge
   const Domain domain = opened(wall, cube_case().ridges);
   expect_opened_wall_is_the_given_one(wall, domain);
-  EXPECT_EQ(domain.ridges.feet.size(), 8u);
+  EXPECT_EQ(domain.ridges.base_vertices.size(), 8u);
   EXPECT_EQ(domain.ridges.quads.size(), 12u * 3u);
 }
 
@@ -364,7 +365,7 @@ TEST(Ridges, BendAroundCornersOfSharpEdges) {
   const TriMesh wall = double_pyramid(6);
   const Domain domain = opened(wall, {.open_ridges = "always"});
   expect_opened_wall_is_the_given_one(wall, domain);
-  EXPECT_EQ(domain.ridges.feet.size(), 4u * 6u);
+  EXPECT_EQ(domain.ridges.base_vertices.size(), 4u * 6u);
   EXPECT_TRUE(domain.ridges.ends.empty());
   EXPECT_FALSE(domain.ridges.corners.empty());
 }
@@ -390,8 +391,8 @@ TEST(Ridges, ThatWouldCrossTheWallStayClosed) {
                                                           // growth lines are raised
   append(wall, beside);
   const Domain domain = opened(wall, {.open_ridges = "always"});
-  EXPECT_EQ(domain.ridges.feet.size(), 7u);  // only the second wing is opened
-  for (const OpenedRidges::Foot& foot : domain.ridges.feet) EXPECT_GT(foot.point.x, 1.5);
+  EXPECT_EQ(domain.ridges.base_vertices.size(), 7u);  // only the second wing is opened
+  for (const OpenedRidges::BaseVertex& base_vertex : domain.ridges.base_vertices) EXPECT_GT(base_vertex.point.x, 1.5);
 }
 
 TEST(Ridges, MeshesWithCornersAreValidAndKeepWall) {

@@ -10,8 +10,8 @@
 
 #include "geom/tets/recover.h"
 #include "tests/support/data.h"
-#include "tests/support/shapes.h"
 #include "tests/support/tessellated_cad.h"
+#include "tests/support/test_shapes.h"
 #include "volmesh/volume_mesh.h"
 
 namespace sterna::volmesh {

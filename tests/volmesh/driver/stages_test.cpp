@@ -4,9 +4,9 @@
 #include <gtest/gtest.h>
 
 #include "geom/base/error.h"
-#include "tests/support/constants.h"
 #include "tests/support/error_of.h"
-#include "tests/support/shapes.h"
+#include "tests/support/test_constants.h"
+#include "tests/support/test_shapes.h"
 #include "tests/volmesh/driver/continued.h"
 
 namespace sterna::volmesh {

@@ -4,9 +4,9 @@
 #include <algorithm>
 
 #include "io/file/volume_file.h"
-#include "tests/support/constants.h"
 #include "tests/support/data.h"
-#include "tests/support/shapes.h"
+#include "tests/support/test_constants.h"
+#include "tests/support/test_shapes.h"
 #include "tests/volmesh/domain/room.h"
 #include "tests/volmesh/domain/sharp_wing.h"
 #include "volmesh/volume_mesh.h"

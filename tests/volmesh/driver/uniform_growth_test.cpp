@@ -2,8 +2,8 @@
 // compressed or turn around edges.
 #include <gtest/gtest.h>
 
-#include "tests/support/constants.h"
-#include "tests/support/shapes.h"
+#include "tests/support/test_constants.h"
+#include "tests/support/test_shapes.h"
 #include "tests/support/voxels.h"
 #include "volmesh/volume_mesh.h"
 

@@ -3,7 +3,7 @@
 
 #include "geom/base/error.h"
 #include "tests/support/error_of.h"
-#include "tests/support/shapes.h"
+#include "tests/support/test_shapes.h"
 #include "volmesh/volume_mesh.h"
 
 namespace sterna::volmesh {

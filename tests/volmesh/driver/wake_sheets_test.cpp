@@ -9,9 +9,9 @@
 
 #include "geom/mesh/periodic.h"
 #include "geom/mesh/topology.h"
-#include "tests/support/constants.h"
 #include "tests/support/error_of.h"
-#include "tests/support/shapes.h"
+#include "tests/support/test_constants.h"
+#include "tests/support/test_shapes.h"
 #include "tests/volmesh/domain/room.h"
 #include "tests/volmesh/domain/sharp_wing.h"
 #include "tests/volmesh/driver/continued.h"
@@ -35,17 +35,17 @@ MeshCase wake_case(std::vector<WakeSheet> wakes) {
   return mesh_case;
 }
 
-using Place = std::array<double, 3>;
-Place place_of(const Point& p) { return {p.x, p.y, p.z}; }
+using Location = std::array<double, 3>;
+Location location_of(const Point& p) { return {p.x, p.y, p.z}; }
 
 /// Returns the boundary faces of the wing as sorted triples of coordinates.
-std::vector<std::array<Place, 3>> faces_of_wing(const HybridMesh& mesh) {
-  std::vector<std::array<Place, 3>> faces;
+std::vector<std::array<Location, 3>> faces_of_wing(const HybridMesh& mesh) {
+  std::vector<std::array<Location, 3>> faces;
   for (const sterna::BoundaryTriangle& face : mesh.boundary_triangles) {
     if (mesh.patches[face.patch].name != "wing") continue;
-    auto& places = faces.emplace_back();
-    for (std::size_t k = 0; k < 3; ++k) places[k] = place_of(mesh.points[face.nodes[k]]);
-    std::ranges::sort(places);
+    auto& locations = faces.emplace_back();
+    for (std::size_t k = 0; k < 3; ++k) locations[k] = location_of(mesh.points[face.nodes[k]]);
+    std::ranges::sort(locations);
   }
   std::ranges::sort(faces);
   return faces;
@@ -134,18 +134,18 @@ TEST(WakeSheets, TheWallIsAThinBodyThen) {
   EXPECT_EQ(made.sources.size(), wall.n_triangles() - given.n_triangles());
   EXPECT_EQ(sheets.n_given_vertices, given.n_vertices());
   std::size_t n_on_edge = 0;
-  for (const DoubledSheets::Foot& foot : sheets.feet) {
-    EXPECT_NEAR(distance(wall.points[foot.sides[0]], wall.points[foot.sides[1]]), 2e-5, 1e-12);
-    EXPECT_GE(foot.sides[1].index(), given.n_vertices());
-    if (foot.sides[0].index() < given.n_vertices()) {
-      EXPECT_EQ(foot.point, given.points[foot.sides[0]]);
+  for (const DoubledSheets::BaseVertex& base_vertex : sheets.base_vertices) {
+    EXPECT_NEAR(distance(wall.points[base_vertex.sides[0]], wall.points[base_vertex.sides[1]]), 2e-5, 1e-12);
+    EXPECT_GE(base_vertex.sides[1].index(), given.n_vertices());
+    if (base_vertex.sides[0].index() < given.n_vertices()) {
+      EXPECT_EQ(base_vertex.point, given.points[base_vertex.sides[0]]);
       ++n_on_edge;
     }
   }
   EXPECT_EQ(n_on_edge, 7u);                          // the opened edge ends at the two corners of the wing
   for (const TriangleId t : wall.triangles.ids()) {  // no triangle has only rim vertices
-    const auto is_rim = [&](VertexId v) { return std::ranges::binary_search(sheets.rims, v); };
-    EXPECT_FALSE(t.index() >= given.n_triangles() && std::ranges::all_of(wall.triangles[t], is_rim));
+    const auto is_border = [&](VertexId v) { return std::ranges::binary_search(sheets.borders, v); };
+    EXPECT_FALSE(t.index() >= given.n_triangles() && std::ranges::all_of(wall.triangles[t], is_border));
   }
   double end = 0.0;
   for (const Point& p : wall.points) end = std::max(end, p.x);
@@ -357,7 +357,7 @@ TEST(WakeSheets, BeginWhereTipEdgesAreNotShort) {
   const std::size_t n_given = wall.n_vertices();
   const SheetsOnWall made = add_wake_sheets(std::array{WakeSheet{.length = 0.5}}, k_stream, 1e-3, {}, wall, k_context);
   double farthest = 0.0;
-  for (const VertexId v : made.sheets.rims)
+  for (const VertexId v : made.sheets.borders)
     if (v.index() < n_given) farthest = std::max(farthest, wall.points[v].y);
   EXPECT_NEAR(farthest, 0.6, 1e-12);
 }

@@ -7,13 +7,13 @@
 
 #include "geom/base/error.h"
 #include "geom/math/constants.h"
-#include "tests/support/shapes.h"
+#include "tests/support/test_shapes.h"
 #include "volmesh/case/layer_choice.h"
 
 namespace sterna::volmesh {
 namespace {
 
-MeshCase asked(double first_height) {
+MeshCase requested(double first_height) {
   MeshCase mesh_case;
   mesh_case.envelope.layers = k_automatic_count;
   mesh_case.envelope.max_growth = 1.25;
@@ -25,26 +25,26 @@ int layers_of(const TriMesh& surface, const MeshCase& mesh_case) { return with_a
 
 TEST(AutomaticLayers, TheLastCellIsHalfARegularTetrahedron) {
   const TriMesh cube = test::cube(4);  // all triangles are equal: legs of a quarter
-  const double edge = std::sqrt(4.0 / std::sqrt(3.0) * 0.5 * 0.25 * 0.25), wanted = 0.5 * k_regular_height * edge;
+  const double edge = std::sqrt(4.0 / std::sqrt(3.0) * 0.5 * 0.25 * 0.25), expected = 0.5 * k_regular_height * edge;
   for (const double h0 : {1e-6, 1e-4, 1e-3}) {
-    const int n = layers_of(cube, asked(h0));
+    const int n = layers_of(cube, requested(h0));
     const double growth = 1.25;
-    EXPECT_GE(h0 * std::pow(growth, n - 1), wanted);
-    EXPECT_LT(h0 * std::pow(growth, n - 2), wanted);
+    EXPECT_GE(h0 * std::pow(growth, n - 1), expected);
+    EXPECT_LT(h0 * std::pow(growth, n - 2), expected);
   }
-  EXPECT_EQ(layers_of(cube, asked(1.0)), 1);
-  MeshCase level = asked(1e-4);
+  EXPECT_EQ(layers_of(cube, requested(1.0)), 1);
+  MeshCase level = requested(1e-4);
   level.envelope.max_growth = 1.0;
   EXPECT_THROW(layers_of(cube, level), Error);
-  MeshCase given = asked(1e-4);
+  MeshCase given = requested(1e-4);
   given.envelope.layers = 7;
   EXPECT_EQ(layers_of(cube, given), 7);
 }
 
 TEST(AutomaticLayers, PatchesCountWithWhatTheyAskFor) {
   const TriMesh cube = test::cube(4);
-  const int of_all = layers_of(cube, asked(1e-4));
-  MeshCase finer = asked(1e-4), slower = asked(1e-4), own = asked(1e-4), none = asked(1e-4), slip = asked(1e-4);
+  const int of_all = layers_of(cube, requested(1e-4));
+  MeshCase finer = requested(1e-4), slower = requested(1e-4), own = requested(1e-4), none = requested(1e-4), slip = requested(1e-4);
   finer.patches = {{.names = cube.patches[PatchId(0)].name, .first_height = 1e-6}};
   slower.patches = {{.names = cube.patches[PatchId(0)].name, .max_growth = 1.1}};
   EXPECT_GT(layers_of(cube, finer), of_all);
@@ -60,14 +60,14 @@ TEST(AutomaticLayers, PatchesCountWithWhatTheyAskFor) {
 /// A member of a mesh family has more layers in proportion to its refinement.
 TEST(AutomaticLayers, FollowTheMemberOfAFamily) {
   const TriMesh coarse = test::cube(4), fine = test::cube(8);
-  MeshCase member = asked(1e-4);
+  MeshCase member = requested(1e-4);
   member.family.refinement = 2.0;
-  const int n = layers_of(coarse, asked(1e-4)), n_fine = layers_of(fine, effective_options(member, RunContext()));
+  const int n = layers_of(coarse, requested(1e-4)), n_fine = layers_of(fine, effective_options(member, RunContext()));
   EXPECT_NEAR(n_fine, 2.0 * n, 2.0);
 }
 
 TEST(AutomaticLayers, ATotalHeightIsSolvedForTheLayers) {
-  MeshCase mesh_case = asked(1e-4);
+  MeshCase mesh_case = requested(1e-4);
   mesh_case.envelope.total_height = 0.05;
   const EnvelopeOptions found = effective_options(mesh_case, RunContext()).envelope;
   EXPECT_GT(found.layers, 1);

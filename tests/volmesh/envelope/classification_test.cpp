@@ -14,9 +14,9 @@
 #include "surfmesh/stitch/stitch_surface.h"
 #include "tests/support/class_bodies.h"
 #include "tests/support/class_drawing.h"
-#include "tests/support/constants.h"
 #include "tests/support/data.h"
-#include "tests/support/shapes.h"
+#include "tests/support/test_constants.h"
+#include "tests/support/test_shapes.h"
 #include "volmesh/envelope/classify.h"
 #include "volmesh/envelope/feature_angle.h"
 #include "volmesh/envelope/initial.h"
@@ -105,13 +105,13 @@ TEST(Classes, WingTipRidge) {
   const TriMesh mesh = test::straight_wing(0.0);
   const Classified wing(mesh);
   // The edge of the flat end is a convex ridge along the section; it stays a ridge where it bends around the nose, because the section is resolved there.
-  std::size_t n_ridges = 0, n_rim = 0;
+  std::size_t n_ridges = 0, n_border = 0;
   for (const VertexId v : mesh.points.ids()) {
     if (mesh.points[v].y != 1.0 || mesh.points[v].x == 1.0) continue;
-    ++n_rim;
+    ++n_border;
     n_ridges += wing.classes.vertex[v].is_ridge && wing.classes.vertex[v].is_convex ? 1 : 0;
   }
-  EXPECT_GE(n_ridges + 2, n_rim);  // the two bends beside the nose may exceed 60 degrees
+  EXPECT_GE(n_ridges + 2, n_border);  // the two bends beside the nose may exceed 60 degrees
   wing.expect_drawn("wing_tip", {-1.5, 2, 1});
 }
 

@@ -9,10 +9,10 @@
 
 #include "geom/base/error.h"
 #include "geom/mesh/find_crossings.h"
-#include "tests/support/constants.h"
 #include "tests/support/envelope_surface.h"
 #include "tests/support/error_of.h"
-#include "tests/support/shapes.h"
+#include "tests/support/test_constants.h"
+#include "tests/support/test_shapes.h"
 #include "volmesh/envelope/certificate.h"
 #include "volmesh/envelope/initial.h"
 #include "volmesh/envelope/retract.h"
@@ -219,7 +219,7 @@ TEST(RequireClearInput, TellsAWallThatReachesTheOuterBoundary) {
   } catch (const Error& error) {
     EXPECT_EQ(error.code(), ErrorCode::self_intersection);
     EXPECT_NE(std::string(error.what()).find("outer boundary"), std::string::npos);
-    EXPECT_FALSE(error.info().places.empty());
+    EXPECT_FALSE(error.info().locations.empty());
     EXPECT_FALSE(error.info().geometry.empty());
   }
 }
@@ -268,7 +268,7 @@ TEST(Certificate, CountsWhatIsWrongAndNamesTheWorst) {
   EXPECT_GT(bad.n_crossings, 0);
   EXPECT_GE(bad.n_invalid_macro_elements, 5);
   EXPECT_LE(bad.worst_macro_element.quality, 0.0);
-  EXPECT_LT(distance(bad.worst_macro_element.place, wall.points[VertexId(5)]), 0.5);
+  EXPECT_LT(distance(bad.worst_macro_element.location, wall.points[VertexId(5)]), 0.5);
   test::expect_error(ErrorCode::envelope_failed, "invalid macro-elements", [&] { (void)require_proved(bad); });
 }
 

@@ -10,14 +10,14 @@
 #include "geom/mesh/find_crossings.h"
 #include "io/file/surface_file.h"
 #include "surfmesh/stitch/stitch_surface.h"
-#include "tests/support/constants.h"
 #include "tests/support/data.h"
 #include "tests/support/envelope_surface.h"
 #include "tests/support/error_of.h"
 #include "tests/support/halves.h"
-#include "tests/support/shapes.h"
+#include "tests/support/test_constants.h"
+#include "tests/support/test_shapes.h"
 #include "volmesh/envelope/build_envelope.h"
-#include "volmesh/envelope/constrain_rims.h"
+#include "volmesh/envelope/constrain_borders.h"
 #include "volmesh/envelope/keep_inside.h"
 #include "volmesh/envelope/retract.h"
 #include "volmesh/envelope/validity.h"
@@ -43,7 +43,9 @@ ConstrainedLayer grow(const TriMesh& wall, Constraints constraints, const Envelo
   return layer;
 }
 
-ConstrainedLayer grow(const TriMesh& wall, const EnvelopeOptions& options) { return grow(wall, constraints_of_rims(wall, Topology(wall, k_context)), options); }
+ConstrainedLayer grow(const TriMesh& wall, const EnvelopeOptions& options) {
+  return grow(wall, constraints_of_borders(wall, Topology(wall, k_context)), options);
+}
 
 EnvelopeOptions thin_layers_of(double h0, int n, double thickness = k_automatic) {
   EnvelopeOptions options;
@@ -109,9 +111,9 @@ double share_different(const ConstrainedLayer& half, const ConstrainedLayer& who
 
 TEST(ConstrainRims, FindsPlanesOfHalfAndQuarterCubes) {
   const TriMesh cube = test::cube(4);
-  EXPECT_TRUE(constraints_of_rims(cube, Topology(cube, k_context)).vertex.empty());
+  EXPECT_TRUE(constraints_of_borders(cube, Topology(cube, k_context)).vertex.empty());
   const TriMesh half = test::cut_off(cube, 1, 0.5);
-  const Constraints one = constraints_of_rims(half, Topology(half, k_context));
+  const Constraints one = constraints_of_borders(half, Topology(half, k_context));
   ASSERT_EQ(one.surfaces.size(), 1u);
   EXPECT_EQ(one.surfaces[0]->normal({}), (Vec3{0, 1, 0}));
   std::size_t n_plane = 0;
@@ -122,7 +124,7 @@ TEST(ConstrainRims, FindsPlanesOfHalfAndQuarterCubes) {
   EXPECT_EQ(n_plane, 16u);
 
   const TriMesh quarter = test::cut_off(half, 2, 0.5);
-  const Constraints two = constraints_of_rims(quarter, Topology(quarter, k_context));
+  const Constraints two = constraints_of_borders(quarter, Topology(quarter, k_context));
   ASSERT_EQ(two.surfaces.size(), 2u);
   std::size_t n_line = 0;
   for (const VertexId v : quarter.points.ids()) {
@@ -141,7 +143,7 @@ TEST(ConstrainRims, ObliquePlanesMayBeGiven) {
   const auto turned = [&](const Vec3& p) { return Vec3{c * p.x - s * p.y, s * p.x + c * p.y, p.z}; };
   for (Point& p : half.points) p = turned(p);
   const Topology topology(half, k_context);
-  test::expect_error(ErrorCode::open_surface, "8 edges lie in no plane x, y or z = constant", [&] { (void)constraints_of_rims(half, topology); });
+  test::expect_error(ErrorCode::open_surface, "8 edges lie in no plane x, y or z = constant", [&] { (void)constraints_of_borders(half, topology); });
   const ConstraintPlane plane(turned({0, 0.5, 0}), turned({0, -1, 0}));
   const ConstrainedLayer layer = grow(half, constraints_of_planes(half, topology, {&plane, 1}), thin_layers_of(1e-4, 12, 0.1));
   expect_sound(layer);
@@ -164,7 +166,7 @@ TEST(ConstrainRims, ErrorsSayWhere) {
   holed.triangles.resize(kept);
   holed.triangle_patch.resize(kept);
   try {
-    constraints_of_rims(holed, Topology(holed, k_context));
+    constraints_of_borders(holed, Topology(holed, k_context));
     FAIL() << "accepted";
   } catch (const Error& error) {
     EXPECT_EQ(error.code(), ErrorCode::open_surface);
@@ -179,7 +181,7 @@ TEST(ConstrainRims, ErrorsSayWhere) {
   for (Point& p : other.points) p.y -= 3.0;
   append(beyond, other);
   try {
-    constraints_of_rims(beyond, Topology(beyond, k_context));
+    constraints_of_borders(beyond, Topology(beyond, k_context));
     FAIL() << "accepted";
   } catch (const Error& error) {
     EXPECT_NE(std::string(error.what()).find("continues beyond the plane"), std::string::npos) << error.what();
@@ -259,7 +261,7 @@ TEST(ConstrainedLayer, BodiesBesideThePlaneKeepClearOfIt) {
 
 TEST(ConstrainedLayer, FixedVerticesStayOnTheWall) {
   const TriMesh half = test::cut_off(test::cube(8), 1, 0.5);
-  Constraints constraints = constraints_of_rims(half, Topology(half, k_context));
+  Constraints constraints = constraints_of_borders(half, Topology(half, k_context));
   for (VertexConstraint& c : constraints.vertex)
     if (c.freedom == Freedom::plane) c.freedom = Freedom::fixed;
   const ConstrainedLayer layer = grow(half, std::move(constraints), thin_layers_of(1e-4, 15, 0.15));
@@ -303,7 +305,7 @@ TEST(ConstrainedLayer, SameBytesForAnyNumberOfThreads) {
   for (const int threads : {1, 2, 7}) {
     const RunContext context({.threads = threads});
     const Topology topology(quarter, context);
-    results.push_back(build_envelope(LayerBase(quarter, context, constraints_of_rims(quarter, topology)), thin_layers_of(1e-4, 15, 0.15), context));
+    results.push_back(build_envelope(LayerBase(quarter, context, constraints_of_borders(quarter, topology)), thin_layers_of(1e-4, 15, 0.15), context));
   }
   for (const Envelope& envelope : results) {
     EXPECT_EQ(envelope.height, results[0].height);

@@ -6,8 +6,8 @@
 #include <array>
 #include <cmath>
 
-#include "tests/support/constants.h"
-#include "tests/support/shapes.h"
+#include "tests/support/test_constants.h"
+#include "tests/support/test_shapes.h"
 
 namespace sterna::volmesh {
 namespace {

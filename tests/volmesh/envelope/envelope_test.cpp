@@ -6,9 +6,9 @@
 #include <numbers>
 
 #include "geom/mesh/find_crossings.h"
-#include "tests/support/constants.h"
 #include "tests/support/envelope_surface.h"
-#include "tests/support/shapes.h"
+#include "tests/support/test_constants.h"
+#include "tests/support/test_shapes.h"
 #include "volmesh/envelope/build_envelope.h"
 #include "volmesh/envelope/initial.h"
 #include "volmesh/envelope/retract.h"

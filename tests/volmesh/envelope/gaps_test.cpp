@@ -4,8 +4,8 @@
 #include <cmath>
 
 #include "geom/mesh/bvh.h"
-#include "tests/support/constants.h"
-#include "tests/support/shapes.h"
+#include "tests/support/test_constants.h"
+#include "tests/support/test_shapes.h"
 #include "volmesh/envelope/build_envelope.h"
 #include "volmesh/envelope/certificate.h"
 #include "volmesh/envelope/initial.h"

@@ -5,8 +5,8 @@
 
 #include "geom/mesh/bvh.h"
 #include "geom/mesh/layer_room.h"
-#include "tests/support/constants.h"
-#include "tests/support/shapes.h"
+#include "tests/support/test_constants.h"
+#include "tests/support/test_shapes.h"
 #include "volmesh/envelope/build_envelope.h"
 #include "volmesh/envelope/certificate.h"
 #include "volmesh/envelope/initial.h"

@@ -9,9 +9,9 @@
 
 #include "geom/base/error.h"
 #include "geom/base/glob.h"
-#include "tests/support/constants.h"
 #include "tests/support/rooms.h"
-#include "tests/support/shapes.h"
+#include "tests/support/test_constants.h"
+#include "tests/support/test_shapes.h"
 #include "tests/support/voxels.h"
 #include "volmesh/envelope/build_envelope.h"
 #include "volmesh/envelope/validity.h"
@@ -184,15 +184,15 @@ TEST(PatchLayers, WallsThatMeetHaveTheirOwnFirstHeights) {
   std::size_t n_strut = 0, n_others = 0;
   for (const VertexId v : wall.points.ids()) {
     const Patch& own = patch_at(wall, triangle_of(layer.base.topology.outgoing(v).front()));
-    const double asked = scale.h0(v);
-    if (asked == k_strut) ++n_strut;
-    if (asked == k_others) ++n_others;
-    EXPECT_TRUE(asked >= k_strut * (1.0 - 1e-12) && asked <= k_others * (1.0 + 1e-12));
+    const double requested = scale.h0(v);
+    if (requested == k_strut) ++n_strut;
+    if (requested == k_others) ++n_others;
+    EXPECT_TRUE(requested >= k_strut * (1.0 - 1e-12) && requested <= k_others * (1.0 + 1e-12));
     if (own.name == "strut" && std::min(wall.points[v].z, 1.0 - wall.points[v].z) > k_blend) {
-      EXPECT_EQ(asked, k_strut);
+      EXPECT_EQ(requested, k_strut);
     }
     if (normal_height(layer.base, layer.envelope, v) < scale.compressed(v)) continue;
-    EXPECT_NEAR(layer.first_height(v) / asked, 1.0, 0.02) << own.name;  // G11
+    EXPECT_NEAR(layer.first_height(v) / requested, 1.0, 0.02) << own.name;  // G11
     for (const VertexId other : layer.base.topology.neighbours(v)) EXPECT_LT(scale.h0(v) / scale.h0(other), 1.6);
   }
   EXPECT_GT(n_strut, 20u);

@@ -1,12 +1,12 @@
 // Walls between two periodic planes: the layer is the same at both sides, to the bit.
-#include "volmesh/envelope/periodic.h"
+#include "volmesh/envelope/periodic_growth.h"
 
 #include <gtest/gtest.h>
 
-#include "tests/support/constants.h"
-#include "tests/support/shapes.h"
+#include "tests/support/test_constants.h"
+#include "tests/support/test_shapes.h"
 #include "volmesh/envelope/build_envelope.h"
-#include "volmesh/envelope/constrain_rims.h"
+#include "volmesh/envelope/constrain_borders.h"
 #include "volmesh/envelope/untangle.h"
 #include "volmesh/envelope/validity.h"
 

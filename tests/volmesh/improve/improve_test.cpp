@@ -12,8 +12,8 @@
 #include "geom/math/measures.h"
 #include "geom/math/predicates.h"
 #include "geom/mesh/computed_volumes.h"
-#include "tests/support/constants.h"
-#include "tests/support/shapes.h"
+#include "tests/support/test_constants.h"
+#include "tests/support/test_shapes.h"
 #include "volmesh/improve/forcing.h"
 #include "volmesh/improve/improver.h"
 #include "volmesh/improve/region.h"
@@ -40,10 +40,10 @@ struct Filled {
       if (is_outer) std::swap(triangles.back()[1], triangles.back()[2]);
     }
   }
-  Vec3 place(std::uint32_t v) const { return v < points.size() ? points[v] : tets.new_points[v - points.size()]; }
+  Vec3 location(std::uint32_t v) const { return v < points.size() ? points[v] : tets.new_points[v - points.size()]; }
   std::array<Vec3, 4> corners(std::size_t t) const {
     const auto& c = tets.tetrahedra[t];
-    return {place(c[0]), place(c[1]), place(c[2]), place(c[3])};
+    return {location(c[0]), location(c[1]), location(c[2]), location(c[3])};
   }
   double volume() const {
     double sum = 0.0;
@@ -101,7 +101,7 @@ Filled shaken_cube(int n, double shake) {
             ++at[static_cast<std::size_t>(axes[s])];
             c[s + 1] = vertex(at[0], at[1], at[2]);
           }
-          if (orient3d(filled.place(c[0]), filled.place(c[1]), filled.place(c[2]), filled.place(c[3])) < 0) std::swap(c[2], c[3]);
+          if (orient3d(filled.location(c[0]), filled.location(c[1]), filled.location(c[2]), filled.location(c[3])) < 0) std::swap(c[2], c[3]);
           filled.tets.tetrahedra.push_back(c);
         } while (std::next_permutation(axes.begin(), axes.end()));
       }
@@ -165,18 +165,18 @@ bool flatten_one(Filled& filled) {
     for (std::size_t k = 0; k < 4; ++k) {
       const std::uint32_t v = tet[k];
       if (v < n_fixed) continue;
-      Vec3& place = filled.tets.new_points[v - n_fixed];
-      const Vec3 before = place;
-      const Vec3 a = filled.place(tet[(k + 1) % 4]), b = filled.place(tet[(k + 2) % 4]), c = filled.place(tet[(k + 3) % 4]);
+      Vec3& location = filled.tets.new_points[v - n_fixed];
+      const Vec3 before = location;
+      const Vec3 a = filled.location(tet[(k + 1) % 4]), b = filled.location(tet[(k + 2) % 4]), c = filled.location(tet[(k + 3) % 4]);
       const Vec3 normal = normalized(cross(b - a, c - a));
-      const double height = dot(place - a, normal);
-      place -= (height - std::copysign(1e-15, height)) * normal;
+      const double height = dot(location - a, normal);
+      location -= (height - std::copysign(1e-15, height)) * normal;
       const bool is_positive = std::ranges::all_of(filled.tets.tetrahedra, [&](const auto& other) {
         return std::ranges::find(other, v) == other.end() ||
-               orient3d(filled.place(other[0]), filled.place(other[1]), filled.place(other[2]), filled.place(other[3])) > 0;
+               orient3d(filled.location(other[0]), filled.location(other[1]), filled.location(other[2]), filled.location(other[3])) > 0;
       });
       if (is_positive && least_relative_volume(filled) < k_solver_margin) return true;
-      place = before;
+      location = before;
     }
   return false;
 }
@@ -432,9 +432,9 @@ TEST(Improve, ThinSlabIsForcedAndCubeIsNot) {
   EXPECT_GT(report.n_forced, 0);
   EXPECT_EQ(report.n_at_boundary, std::ranges::count_if(slab.tets.tetrahedra, [&](const auto& c) { return std::ranges::min(c) < slab.points.size(); }));
   std::int64_t n_forced = 0;
-  for (const ErrorPlace& place : report.remaining) {
-    EXPECT_THAT(place.what, testing::HasSubstr("forced"));
-    n_forced += place.what.find("not forced") == std::string::npos;
+  for (const ErrorLocation& location : report.remaining) {
+    EXPECT_THAT(location.what, testing::HasSubstr("forced"));
+    n_forced += location.what.find("not forced") == std::string::npos;
   }
   EXPECT_EQ(n_forced, report.n_forced);
 

@@ -9,8 +9,8 @@
 #include <set>
 
 #include "tests/support/class_bodies.h"
-#include "tests/support/constants.h"
-#include "tests/support/shapes.h"
+#include "tests/support/test_constants.h"
+#include "tests/support/test_shapes.h"
 #include "tests/support/voxels.h"
 #include "volmesh/flow/boundary_layer.h"
 
@@ -82,13 +82,13 @@ const Finding& the(const InspectReport& report, Kind kind) {
 
 /// Returns the centres of the triangles that the picture marks.
 std::vector<Point> marked(const InspectReport& report, Kind kind) {
-  std::vector<Point> places;
+  std::vector<Point> locations;
   for (const TriangleId t : report.mesh.triangles.ids()) {
     if (field(report, "finding").values[t.index()] != static_cast<float>(kind)) continue;
     const auto [a, b, c] = corners(report.mesh, t);
-    places.push_back((a + b + c) / 3.0);
+    locations.push_back((a + b + c) / 3.0);
   }
-  return places;
+  return locations;
 }
 
 // ---- Clean shapes ---------------------------------------------------------------------------------------------------------------------------
@@ -143,9 +143,9 @@ TEST(Inspect, FindsANeedle) {
   EXPECT_EQ(needle.count, 2);  // the triangles at the short edge
   EXPECT_EQ(needle.unit, "deg");
   EXPECT_LT(needle.value, 0.06);  // atan(1e-4 / 0.125)
-  ASSERT_FALSE(needle.places.empty());
-  EXPECT_LT(distance(needle.places[0].position, {0.5, 0.625, 1.0}), 0.125);
-  EXPECT_EQ(needle.places[0].patch, "cube");
+  ASSERT_FALSE(needle.locations.empty());
+  EXPECT_LT(distance(needle.locations[0].position, {0.5, 0.625, 1.0}), 0.125);
+  EXPECT_EQ(needle.locations[0].patch, "cube");
   EXPECT_EQ(marked(report, Kind::needle).size(), 2u);
 }
 
@@ -167,7 +167,7 @@ TEST(Inspect, FindsATriangleMuchSmallerThanItsNeighbours) {
   const InspectReport report = inspect(mesh);
   EXPECT_THAT(kinds(report), UnorderedElementsAre(Kind::size_jump, Kind::not_looked_at));
   EXPECT_EQ(the(report, Kind::size_jump).count, 3);
-  EXPECT_LT(distance(the(report, Kind::size_jump).places.at(0).position, middle), 0.02);
+  EXPECT_LT(distance(the(report, Kind::size_jump).locations.at(0).position, middle), 0.02);
 }
 
 TEST(Inspect, FindsAShortEdge) {
@@ -178,7 +178,7 @@ TEST(Inspect, FindsAShortEdge) {
   const Finding& edge = the(report, Kind::short_edge);
   EXPECT_EQ(edge.count, 1);
   EXPECT_NEAR(edge.value, 1e-9, 1e-12);
-  EXPECT_LT(distance(edge.places.at(0).position, {0.5, 0.625, 1.0}), 1e-6);
+  EXPECT_LT(distance(edge.locations.at(0).position, {0.5, 0.625, 1.0}), 1e-6);
   EXPECT_NE(edge.advice.find("weld_tolerance"), std::string::npos);
 }
 
@@ -229,13 +229,13 @@ TEST(Inspect, FindsFoldAndVisibilityOfItsEdge) {
   const Finding& fold = the(report, Kind::fold);
   EXPECT_EQ(fold.count, 7);
   EXPECT_NEAR(fold.value, 8.0, 1e-6);
-  EXPECT_EQ(fold.places.size(), 5u);  // max_places
-  for (const FindingPlace& place : fold.places) EXPECT_EQ(place.position.x, 0.0);
+  EXPECT_EQ(fold.locations.size(), 5u);  // max_places
+  for (const FindingLocation& location : fold.locations) EXPECT_EQ(location.position.x, 0.0);
   EXPECT_NE(fold.text.find("(0 of them with fluid in between)"), std::string::npos);
   // Two facets that turn by 172 degrees have a visibility angle of half of that.
   const Finding& edge = the(report, Kind::visibility);
   EXPECT_NEAR(edge.value, 86.0, 0.5);  // slightly more at the ends
-  EXPECT_EQ(edge.places.at(0).position.x, 0.0);
+  EXPECT_EQ(edge.locations.at(0).position.x, 0.0);
   EXPECT_THAT(kinds(inspect(wedge(8.0 * k_degree, 7))), UnorderedElementsAre(Kind::visibility, Kind::not_looked_at)) << "8 degrees are no fold by default";
 }
 
@@ -246,11 +246,11 @@ TEST(Inspect, FindsAVertexThatNoDirectionServes) {
     const Finding& hidden = the(report, Kind::hidden);
     EXPECT_EQ(hidden.count, 1);
     EXPECT_GE(hidden.value, 90.0 - 1e-6);
-    EXPECT_LT(distance(hidden.places.at(0).position, {1, 1, 1}), 1e-9);
+    EXPECT_LT(distance(hidden.locations.at(0).position, {1, 1, 1}), 1e-9);
     if (!report.layer.is_known) continue;
     EXPECT_GT(report.layer.collapsed, 0.0);
     ASSERT_TRUE(report.find(Kind::collapsed));
-    EXPECT_LT(distance(the(report, Kind::collapsed).places.at(0).position, {1, 1, 1}), 1e-9);
+    EXPECT_LT(distance(the(report, Kind::collapsed).locations.at(0).position, {1, 1, 1}), 1e-9);
   }
   EXPECT_THAT(kinds(inspect(mesh)), UnorderedElementsAre(Kind::hidden, Kind::not_looked_at));
 }
@@ -265,9 +265,9 @@ TEST(Inspect, FindsCrossingsWithTheirPairs) {
   Box overlap;  // of the two cubes, extended by one triangle
   overlap.add(Vec3{0.6, 0.55, 0.52} - Vec3{0.25, 0.25, 0.25});
   overlap.add(Vec3{1.25, 1.25, 1.25});
-  for (const FindingPlace& place : crossing.places) {
-    for (std::size_t axis = 0; axis < 3; ++axis) EXPECT_TRUE(place.position[axis] >= overlap.min[axis] && place.position[axis] <= overlap.max[axis]);
-    EXPECT_NE(place.what.find(" and "), std::string::npos);
+  for (const FindingLocation& location : crossing.locations) {
+    for (std::size_t axis = 0; axis < 3; ++axis) EXPECT_TRUE(location.position[axis] >= overlap.min[axis] && location.position[axis] <= overlap.max[axis]);
+    EXPECT_NE(location.what.find(" and "), std::string::npos);
   }
   EXPECT_FALSE(marked(report, Kind::crossing).empty());
   EXPECT_FALSE(report.layer.is_known);
@@ -291,7 +291,7 @@ TEST(Inspect, FindsAHole) {
   EXPECT_FALSE(report.is_closed);
   EXPECT_THAT(kinds(report), UnorderedElementsAre(Kind::open, Kind::not_looked_at));
   EXPECT_EQ(the(report, Kind::open).count, 3);
-  EXPECT_LT(distance(the(report, Kind::open).places.at(0).position, hole), 0.125);
+  EXPECT_LT(distance(the(report, Kind::open).locations.at(0).position, hole), 0.125);
   for (const Point& p : marked(report, Kind::open)) EXPECT_LT(distance(p, hole), 0.2);
   EXPECT_EQ(marked(report, Kind::open).size(), 3u);
 }
@@ -307,7 +307,7 @@ TEST(Inspect, FindsABodyInABody) {
   const InspectReport report = inspect(joined(test::sphere(6, 1.0), turned_over(test::sphere(6, 0.3))));
   EXPECT_THAT(kinds(report), UnorderedElementsAre(Kind::cavity, Kind::bodies, Kind::not_looked_at));
   EXPECT_EQ(the(report, Kind::cavity).count, 1);
-  EXPECT_LT(norm(the(report, Kind::cavity).places.at(0).position), 0.01);
+  EXPECT_LT(norm(the(report, Kind::cavity).locations.at(0).position), 0.01);
   EXPECT_EQ(report.n_bodies, 2);
 }
 
@@ -319,7 +319,7 @@ TEST(Inspect, FindsBodiesThatNearlyTouch) {
   EXPECT_EQ(contact.count, 2 * 25);  // all vertices of both faces
   EXPECT_GT(contact.value, apart / 0.5);
   EXPECT_LT(contact.value, apart / 0.2);
-  EXPECT_NEAR(contact.places.at(0).position.x, 1.0, 1e-3);
+  EXPECT_NEAR(contact.locations.at(0).position.x, 1.0, 1e-3);
   // Opposite sides of a solid are not a contact: a thinner plate, seen from outside.
   InspectRequest request;
   EXPECT_FALSE(inspect(moved(test::cube(4), {}, {1.0, 1.0, 1e-3}), request).find(Kind::contact));
@@ -349,7 +349,7 @@ TEST(Inspect, MeasuresAGapAgainstTheLayers) {
   EXPECT_GT(lowered.count, 2 * 15 * 15);
   EXPECT_LT(lowered.value, 0.2);
   EXPECT_NE(lowered.advice.find("max_thickness"), std::string::npos);
-  for (const FindingPlace& place : lowered.places) EXPECT_NEAR(place.position.z, 0.2 + 0.5 * gap, 0.51 * gap);
+  for (const FindingLocation& location : lowered.locations) EXPECT_NEAR(location.position.z, 0.2 + 0.5 * gap, 0.51 * gap);
   EXPECT_NEAR(1.0 - report.layer.coverage, lowered.share, 1e-9);
   int n = 0;
   for (const VertexId v : report.mesh.points.ids()) {
@@ -406,9 +406,9 @@ TEST(Inspect, ComparesTheFirstHeightWithTheFlow) {
   request.flow = flow_state({.length = 1.0, .reynolds = 1e6});
   const InspectReport report = inspect(test::cube(16), request);
   EXPECT_THAT(kinds(report), UnorderedElementsAre(Kind::y_plus, Kind::wake));
-  const double wanted = first_height({.y_plus = 1.0}, *request.flow).height;
-  EXPECT_NEAR(the(report, Kind::y_plus).value, 1e-4 / wanted, 1e-9);
-  request.limits.wanted_y_plus = 1e-4 / wanted;
+  const double expected = first_height({.y_plus = 1.0}, *request.flow).height;
+  EXPECT_NEAR(the(report, Kind::y_plus).value, 1e-4 / expected, 1e-9);
+  request.limits.wanted_y_plus = 1e-4 / expected;
   EXPECT_THAT(kinds(inspect(test::cube(16), request)), UnorderedElementsAre(Kind::wake));
 }
 
@@ -437,8 +437,8 @@ TEST(Inspect, IsTheSameForAnyNumberOfThreads) {
     for (std::size_t i = 0; i < one.findings.size(); ++i) {
       EXPECT_EQ(one.findings[i].text, other.findings[i].text);
       EXPECT_EQ(one.findings[i].advice, other.findings[i].advice);
-      ASSERT_EQ(one.findings[i].places.size(), other.findings[i].places.size());
-      for (std::size_t k = 0; k < one.findings[i].places.size(); ++k) EXPECT_EQ(one.findings[i].places[k].what, other.findings[i].places[k].what);
+      ASSERT_EQ(one.findings[i].locations.size(), other.findings[i].locations.size());
+      for (std::size_t k = 0; k < one.findings[i].locations.size(); ++k) EXPECT_EQ(one.findings[i].locations[k].what, other.findings[i].locations[k].what);
     }
     EXPECT_EQ(one.layer.coverage, other.layer.coverage);
     ASSERT_EQ(one.fields.size(), other.fields.size());
@@ -476,9 +476,9 @@ TEST(Inspect, FindsABaseTooThinForItsLayer) {
   EXPECT_EQ(base.severity, Severity::warn);
   EXPECT_NEAR(base.value, 80.0, 1.0);
   EXPECT_EQ(base.count % 2, 0) << "both edges of the base";
-  ASSERT_FALSE(base.places.empty());
-  for (const FindingPlace& place : base.places) EXPECT_NEAR(place.position.x, 1.0, 1e-9);
-  EXPECT_NE(base.places.front().what.find("0.001 m thick under a layer of 0.08 m"), std::string::npos) << base.places.front().what;
+  ASSERT_FALSE(base.locations.empty());
+  for (const FindingLocation& location : base.locations) EXPECT_NEAR(location.position.x, 1.0, 1e-9);
+  EXPECT_NE(base.locations.front().what.find("0.001 m thick under a layer of 0.08 m"), std::string::npos) << base.locations.front().what;
   for (const double thickness : {0.0, 0.04}) EXPECT_FALSE(inspect(test::straight_wing(thickness), request).find(Kind::thin_base)) << thickness;
   EXPECT_FALSE(inspect(test::cube(8), request).find(Kind::thin_base));
   request.limits.base_ratio = 100.0;

@@ -6,9 +6,9 @@
 
 #include "io/file/surface_file.h"
 #include "surfmesh/stitch/stitch_surface.h"
-#include "tests/support/constants.h"
 #include "tests/support/data.h"
-#include "tests/support/shapes.h"
+#include "tests/support/test_constants.h"
+#include "tests/support/test_shapes.h"
 #include "volmesh/case/growth_law.h"
 #include "volmesh/envelope/build_envelope.h"
 #include "volmesh/layer/extrude.h"
@@ -159,7 +159,7 @@ TEST(Extrude, EvenLayerOnSphereNeedsNoRepair) {
   EXPECT_EQ(certificate.n_cells, static_cast<std::int64_t>(sphere.n_triangles()) * 10);
   EXPECT_EQ(certificate.n_proved, certificate.n_cells);
   EXPECT_GT(certificate.min_quality, 0.5);
-  EXPECT_NEAR(norm(certificate.worst_place), 1.02, 0.05);
+  EXPECT_NEAR(norm(certificate.worst_location), 1.02, 0.05);
   const FirstNodeReport first = first_node_report(base, classify_vertices(base, options, k_context), options, envelope, extrusion, k_context);
   EXPECT_EQ(first.vertex_share, 1.0);
   EXPECT_EQ(first.facet_share, 1.0);

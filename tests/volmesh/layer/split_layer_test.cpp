@@ -5,7 +5,7 @@
 #include <numbers>
 
 #include "geom/math/measures.h"
-#include "tests/support/shapes.h"
+#include "tests/support/test_shapes.h"
 #include "volmesh/stages.h"
 
 namespace sterna::volmesh {

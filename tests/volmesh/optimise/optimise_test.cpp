@@ -5,7 +5,7 @@
 #include <numbers>
 
 #include "geom/math/measures.h"
-#include "tests/support/constants.h"
+#include "tests/support/test_constants.h"
 #include "tests/volmesh/optimise/rough_envelope.h"
 #include "volmesh/envelope/optimise.h"
 #include "volmesh/envelope/validity.h"

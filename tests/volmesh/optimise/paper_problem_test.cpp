@@ -9,9 +9,9 @@
 #include "geom/math/measures.h"
 #include "io/file/surface_file.h"
 #include "surfmesh/stitch/stitch_surface.h"
-#include "tests/support/constants.h"
 #include "tests/support/data.h"
-#include "tests/support/shapes.h"
+#include "tests/support/test_constants.h"
+#include "tests/support/test_shapes.h"
 #include "volmesh/envelope/build_envelope.h"
 #include "volmesh/envelope/initial.h"
 

@@ -1,7 +1,7 @@
 // Envelopes with tilted growth lines and uneven heights, for the tests of the optimisers.
 #pragma once
 
-#include "tests/support/shapes.h"
+#include "tests/support/test_shapes.h"
 #include "volmesh/envelope/initial.h"
 #include "volmesh/envelope/untangle.h"
 

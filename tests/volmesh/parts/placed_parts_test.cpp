@@ -6,7 +6,7 @@
 #include <cmath>
 
 #include "tests/support/rooms.h"
-#include "tests/support/shapes.h"
+#include "tests/support/test_shapes.h"
 #include "volmesh/parts/part_envelope.h"
 #include "volmesh/stages.h"
 
@@ -63,10 +63,10 @@ PartEnvelope alone(const Scene& scene, PartEnvelopeTask& task) {
   PartEnvelope made;
   int n_calls = 0;
   Makers makers;
-  makers.part_envelope = [&](const PartEnvelopeTask& asked, const RunContext& context) {
+  makers.part_envelope = [&](const PartEnvelopeTask& requested, const RunContext& context) {
     ++n_calls;
-    task = asked;
-    made = part_envelope(asked, context);
+    task = requested;
+    made = part_envelope(requested, context);
     return made;
   };
   make_envelope(scene.surface, options, makers, RunContext({.threads = 2}));
@@ -193,9 +193,9 @@ TEST(PlacedParts, MisplacedPartIsMeshedInPlace) {
   const MeshCase options = scene.options();
   bool is_called = false;
   Makers makers;
-  makers.part_envelope = [&](const PartEnvelopeTask& asked, const RunContext& context) {
+  makers.part_envelope = [&](const PartEnvelopeTask& requested, const RunContext& context) {
     is_called = true;
-    return part_envelope(asked, context);
+    return part_envelope(requested, context);
   };
   make_envelope(scene.surface, options, makers, RunContext({.threads = 2}));
   EXPECT_FALSE(is_called);

@@ -8,8 +8,8 @@
 #include <cmath>
 
 #include "geom/model/frame.h"
-#include "tests/support/constants.h"
-#include "tests/support/shapes.h"
+#include "tests/support/test_constants.h"
+#include "tests/support/test_shapes.h"
 #include "volmesh/envelope/build_envelope.h"
 #include "volmesh/envelope/certificate.h"
 
@@ -106,8 +106,8 @@ TEST(WarmStart, IsRefusedWhereLayerWouldBeMuchLower) {
   const Started near = started(cubes(0.05), from);
   EXPECT_FALSE(near.start.envelope);
   EXPECT_THAT(near.start.objection, HasSubstr("full height would be lost on "));
-  EXPECT_GT(near.start.place.x, 0.9);
-  EXPECT_LT(near.start.place.x, 1.2);
+  EXPECT_GT(near.start.location.x, 0.9);
+  EXPECT_LT(near.start.location.x, 1.2);
   const Started other = started(test::cube(5), from);
   EXPECT_FALSE(other.start.envelope);
   EXPECT_THAT(other.start.objection, HasSubstr("vertices"));

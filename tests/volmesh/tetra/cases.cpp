@@ -11,7 +11,7 @@
 
 #include "geom/base/parallel.h"
 #include "geom/math/measures.h"
-#include "tests/support/shapes.h"
+#include "tests/support/test_shapes.h"
 #include "volmesh/domain/farfield.h"
 #include "volmesh/tetra/preflight.h"
 

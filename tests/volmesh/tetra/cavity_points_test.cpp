@@ -3,7 +3,7 @@
 #include <numbers>
 
 #include "geom/math/measures.h"
-#include "tests/support/shapes.h"
+#include "tests/support/test_shapes.h"
 #include "tests/volmesh/tetra/cases.h"
 
 namespace sterna::volmesh {
@@ -106,7 +106,7 @@ TEST(FindCavityPoints, MovesWithTheBody) {
 TEST(FindCavityPoints, RejectsWhatIsNoSolid) {
   const ErrorInfo error = error_info_of([] { find(inside_out(test::cube(2))); });
   EXPECT_EQ(error.code, ErrorCode::not_orientable);
-  EXPECT_EQ(error.places.size(), 1u);
+  EXPECT_EQ(error.locations.size(), 1u);
   EXPECT_EQ(error_info_of([] { find(both(test::sphere(3), transformed(test::sphere(2), 0.5, {}))); }).code, ErrorCode::not_orientable);
 }
 

@@ -1,7 +1,7 @@
 #include <gmock/gmock.h>
 
 #include "tests/support/data.h"
-#include "tests/support/shapes.h"
+#include "tests/support/test_shapes.h"
 #include "tests/volmesh/tetra/cases.h"
 #include "volmesh/domain/farfield.h"
 
@@ -156,8 +156,8 @@ TEST_P(FillWith, RejectsAnOpenBoundary) {
   const ErrorInfo error = error_info_of([&] { fill(domain); });
   EXPECT_EQ(error.code, ErrorCode::open_surface);
   EXPECT_THAT(error.problem, HasSubstr("3 edges"));
-  EXPECT_EQ(error.n_places, 3);
-  EXPECT_EQ(error.places.size(), 3u);
+  EXPECT_EQ(error.n_locations, 3);
+  EXPECT_EQ(error.locations.size(), 3u);
   EXPECT_EQ(error.geometry.triangles.size(), 3u);
 }
 
@@ -166,7 +166,7 @@ TEST_P(FillWith, RejectsADuplicateTriangle) {
   domain.triangles.push_back(domain.triangles[0]);
   const ErrorInfo error = error_info_of([&] { fill(domain); });
   EXPECT_EQ(error.code, ErrorCode::non_manifold_surface);
-  EXPECT_EQ(error.n_places, 3);
+  EXPECT_EQ(error.n_locations, 3);
 }
 
 TEST_P(FillWith, RejectsATurnedTriangle) {
@@ -181,9 +181,9 @@ TEST_P(FillWith, RejectsAnIndexOutOfRange) {
   const ErrorInfo error = error_info_of([&] { fill(domain); });
   EXPECT_EQ(error.code, ErrorCode::bad_argument);
   EXPECT_THAT(error.problem, HasSubstr("out of range"));
-  ASSERT_EQ(error.places.size(), 1u);
-  EXPECT_THAT(error.places[0].what, HasSubstr("triangle 5"));
-  EXPECT_THAT(error.places[0].what, HasSubstr("99999"));
+  ASSERT_EQ(error.locations.size(), 1u);
+  EXPECT_THAT(error.locations[0].what, HasSubstr("triangle 5"));
+  EXPECT_THAT(error.locations[0].what, HasSubstr("99999"));
 }
 
 TEST_P(FillWith, RejectsBadPoints) {
@@ -198,8 +198,8 @@ TEST_P(FillWith, RejectsBadPoints) {
   domain.points[4] = domain.points[5];
   const ErrorInfo twins = error_info_of([&] { fill(domain); });
   EXPECT_EQ(twins.code, ErrorCode::self_intersection);
-  ASSERT_EQ(twins.places.size(), 1u);
-  EXPECT_EQ(twins.places[0].position, good.points[5]);
+  ASSERT_EQ(twins.locations.size(), 1u);
+  EXPECT_EQ(twins.locations[0].position, good.points[5]);
   domain = good;
   domain.triangles[0] = {domain.triangles[0][0], domain.triangles[0][0], domain.triangles[0][1]};
   EXPECT_EQ(error_info_of([&] { fill(domain); }).code, ErrorCode::bad_argument);
@@ -220,10 +220,10 @@ TEST(Fill, TellsWhereTheBoundaryCrossesItself) {
     const ErrorInfo error = error_info_of([&] { fill(domain); });
     EXPECT_EQ(error.code, ErrorCode::self_intersection);
     EXPECT_THAT(error.problem, HasSubstr("that cross"));
-    ASSERT_FALSE(error.places.empty());
-    EXPECT_GT(error.n_places, 10);
+    ASSERT_FALSE(error.locations.empty());
+    EXPECT_GT(error.n_locations, 10);
     EXPECT_FALSE(error.geometry.triangles.empty());
-    EXPECT_LT(norm(error.places[0].position), 1.2);
+    EXPECT_LT(norm(error.locations[0].position), 1.2);
     // An engine that receives such input without a check crashes in some of these cases and returns incomplete triangles in others; neither does harm.
     TetraBoundary boundary = domain.boundary();
     boundary.clear = proof_of_another_boundary();

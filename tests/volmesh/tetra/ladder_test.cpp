@@ -5,7 +5,7 @@
 #include <fstream>
 
 #include "tests/support/data.h"
-#include "tests/support/shapes.h"
+#include "tests/support/test_shapes.h"
 #include "tests/volmesh/tetra/cases.h"
 #include "volmesh/tetra/engine_process.h"
 
@@ -115,8 +115,8 @@ TEST_F(Ladder, FailureWithoutLocationNamesDifficultLocations) {
   const Domain domain = domain_around(plate, 10.0);
   const ErrorInfo error = error_info_of([&] { fill(domain, {.helper_folder = folder("crash", k_crash, k_crash)}); });
   EXPECT_EQ(error.code, ErrorCode::tetra_engine_failed);
-  ASSERT_FALSE(error.places.empty());
-  EXPECT_THAT(error.places.front().what, HasSubstr("difficult for tetrahedra engines"));
+  ASSERT_FALSE(error.locations.empty());
+  EXPECT_THAT(error.locations.front().what, HasSubstr("difficult for tetrahedra engines"));
   EXPECT_FALSE(error.geometry.triangles.empty());  // drawn in the VTU file
 }
 
@@ -147,8 +147,8 @@ TEST_F(Ladder, EndlessEngineIsStoppedAndLadderEnds) {
   EXPECT_THAT(error.problem,
               testing::AllOf(HasSubstr("(HXT): the helper died of signal 11"), HasSubstr("(TetGen): stopped after"), HasSubstr("processor time")));
   EXPECT_THAT(error.hint, testing::AllOf(HasSubstr("re-mesh the surface"), HasSubstr("tetrahedra.time_limit")));
-  ASSERT_FALSE(error.places.empty());
-  EXPECT_THAT(error.places.front().what, HasSubstr("difficult for tetrahedra engines"));
+  ASSERT_FALSE(error.locations.empty());
+  EXPECT_THAT(error.locations.front().what, HasSubstr("difficult for tetrahedra engines"));
   EXPECT_THAT(log_, testing::Not(Contains(HasSubstr("splits"))));
 }
 

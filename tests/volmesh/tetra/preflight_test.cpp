@@ -6,7 +6,7 @@
 
 #include "geom/mesh/find_crossings.h"
 #include "tests/support/data.h"
-#include "tests/support/shapes.h"
+#include "tests/support/test_shapes.h"
 #include "tests/volmesh/tetra/cases.h"
 
 namespace sterna::volmesh {
@@ -74,7 +74,7 @@ TEST(Preflight, CrossingsAreThoseOfTheExactTest) {
   EXPECT_EQ(report_of(domain, {.searches_crossings = false}).count(Trouble::crossing), 0);
   const ErrorInfo error = test::error_info_of([&] { judge(report, domain.boundary(), RunContext{}); });
   EXPECT_EQ(error.code, ErrorCode::self_intersection);
-  EXPECT_EQ(error.n_places, crossings.total);
+  EXPECT_EQ(error.n_locations, crossings.total);
   EXPECT_FALSE(error.geometry.triangles.empty());
 }
 
@@ -148,8 +148,8 @@ TEST(Preflight, NamesThePatch) {
   boundary.patch_names = names;
   boundary.triangle_patch = patch;
   const ErrorInfo error = test::error_info_of([&] { judge(preflight(boundary, {}, RunContext{}), boundary, RunContext{}); });
-  ASSERT_FALSE(error.places.empty());
-  EXPECT_THAT(error.places[0].what, HasSubstr("patch \"fuselage\""));
+  ASSERT_FALSE(error.locations.empty());
+  EXPECT_THAT(error.locations[0].what, HasSubstr("patch \"fuselage\""));
 }
 
 TEST(Preflight, WarnsOfWhatEnginesFindHard) {

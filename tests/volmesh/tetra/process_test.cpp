@@ -11,7 +11,7 @@
 
 #include "tests/support/data.h"
 #include "tests/support/process.h"
-#include "tests/support/shapes.h"
+#include "tests/support/test_shapes.h"
 #include "tests/volmesh/tetra/cases.h"
 
 namespace sterna::volmesh {

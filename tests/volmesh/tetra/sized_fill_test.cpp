@@ -4,7 +4,7 @@
 #include <cmath>
 #include <set>
 
-#include "tests/support/shapes.h"
+#include "tests/support/test_shapes.h"
 #include "tests/volmesh/tetra/cases.h"
 #include "volmesh/tetra/size_supply.h"
 

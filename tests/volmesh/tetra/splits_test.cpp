@@ -5,7 +5,7 @@
 #include <fstream>
 
 #include "tests/support/data.h"
-#include "tests/support/shapes.h"
+#include "tests/support/test_shapes.h"
 #include "tests/volmesh/tetra/cases.h"
 #include "volmesh/tetra/engine_process.h"
 

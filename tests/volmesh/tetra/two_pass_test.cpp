@@ -8,7 +8,7 @@
 #include <cmath>
 #include <map>
 
-#include "tests/support/shapes.h"
+#include "tests/support/test_shapes.h"
 #include "tests/volmesh/tetra/cases.h"
 #include "volmesh/tetra/size_supply.h"
 

@@ -2,7 +2,7 @@
 
 #include <gmock/gmock.h>
 
-#include "tests/support/shapes.h"
+#include "tests/support/test_shapes.h"
 #include "tests/volmesh/tetra/cases.h"
 
 namespace sterna::volmesh {
@@ -20,8 +20,8 @@ class VerifyTetrahedra : public testing::Test {
     const ErrorInfo first = error_info_of([&] { verify_tetrahedra(domain.boundary(), result, RunContext({.threads = 1})); });
     const ErrorInfo again = error_info_of([&] { verify_tetrahedra(domain.boundary(), result, RunContext({.threads = 7})); });
     EXPECT_EQ(first.problem, again.problem);
-    EXPECT_EQ(first.places.size(), again.places.size());
-    for (std::size_t i = 0; i < first.places.size(); ++i) EXPECT_EQ(first.places[i].what, again.places[i].what);
+    EXPECT_EQ(first.locations.size(), again.locations.size());
+    for (std::size_t i = 0; i < first.locations.size(); ++i) EXPECT_EQ(first.locations[i].what, again.locations[i].what);
     return first;
   }
   Domain domain;
@@ -41,8 +41,8 @@ TEST_F(VerifyTetrahedra, AMissingTetrahedron) {
     result.tetrahedra.erase(result.tetrahedra.begin() + static_cast<std::ptrdiff_t>(i));
     const ErrorInfo error = verify();
     EXPECT_EQ(error.code, ErrorCode::tetra_result_invalid);
-    EXPECT_EQ(error.n_places, 4);
-    EXPECT_EQ(error.places.size(), 4u);
+    EXPECT_EQ(error.n_locations, 4);
+    EXPECT_EQ(error.locations.size(), 4u);
   }
 }
 
@@ -56,8 +56,8 @@ TEST_F(VerifyTetrahedra, AnInvertedTetrahedron) {
   std::swap(result.tetrahedra[17][0], result.tetrahedra[17][1]);
   const ErrorInfo error = verify();
   EXPECT_THAT(error.problem, HasSubstr("1 tetrahedra without positive volume"));
-  ASSERT_EQ(error.places.size(), 1u);
-  EXPECT_THAT(error.places[0].what, HasSubstr("tetrahedron 17"));
+  ASSERT_EQ(error.locations.size(), 1u);
+  EXPECT_THAT(error.locations[0].what, HasSubstr("tetrahedron 17"));
 }
 
 TEST_F(VerifyTetrahedra, BadIndices) {
