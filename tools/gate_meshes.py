@@ -85,7 +85,9 @@ BODIES = [
     of_model("widebody", "read_smx", "smx/widebody.smx"),
 ]
 LARGE_BODIES = ["first_mesh", "geom2", "wing_body", "bwb", "airplane", "cessna", "swept_wing", "caturbs", "m6_sharp", "lab_plane", "duct", "fandisk", "m6_cpacs"]
-REFINED_BODIES = ["wing_body", "geom2", "airplane", "caturbs", "lab_plane", "light", "bjet", "crm", "swept_wing", "simple_wing", "dlr_f6", "first_mesh", "duct", "m6_cpacs"]
+REFINED_BODIES = ["wing_body", "geom2", "airplane", "caturbs", "lab_plane", "light", "bjet", "crm", "swept_wing", "simple_wing", "dlr_f6", "first_mesh", "duct", "m6_cpacs",
+                  "fandisk", "cessna", "D150", "canards", "bwb", "utility", "m6_sharp", "simple_test", "box_wing", "ka6d", "m6_igs", "delta", "coupling", "fighter", "widebody"]
+REFINED_FINE_BODIES = ["wing_body", "geom2", "airplane", "caturbs", "lab_plane", "first_mesh", "swept_wing"]  # with y+ 1 at the refined size
 FINE_BODIES = ["wing_body", "first_mesh", "m6_cpacs"]  # with y+ 1 at the small size
 
 # A wing with a blunt trailing edge: no gate of its mesh exceeds a hard limit for cell-centred solvers. --short uses the small wing.
@@ -180,6 +182,7 @@ def all_meshes() -> list[Mesh]:
     large = [sound(bodies[name], LARGE, LAYERS.format(height=1e-4), "_large") for name in LARGE_BODIES]
     fine = [sound(bodies[name], SMALL, Y_PLUS, "_y1") for name in FINE_BODIES]
     refined = [sound(bodies[name], REFINED, LAYERS.format(height=1e-4), "_refined") for name in REFINED_BODIES]
+    refined += [sound(bodies[name], REFINED, Y_PLUS, "_refined_y1") for name in REFINED_FINE_BODIES]
     return BASES + turns + large[:7] + fine + refined + on_wing(MORE_DAMAGES) + [damaged("first_mesh_small", kind, amount, **strength) for kind, amount, strength in ON_BODY] + large[7:]
 
 

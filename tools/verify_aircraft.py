@@ -11,6 +11,7 @@ import re
 import shutil
 
 ROOT = pathlib.Path(__file__).resolve().parent.parent
+FAMILY_BAND = 0.03         # share: drag of the two finest meshes of a family
 WINDOW, BAND = 100, 0.005  # iterations, share: a run has converged if its forces stay within this band
 REFERENCE = 0.1            # reference area over the square of the length
 CREVICE = 0.005            # width over the length, up to which crevices are filled at trailing edges that overhang a body; real aircraft have a fillet there
@@ -72,6 +73,8 @@ AIRCRAFT = [
     of_surface("cessna", "flowpanel_cessna_cessna.msh", "unit = ft, split_angle = 60*deg", 0.36, sst=True),
     of_surface("airplane", "flow360_airplane_airplaneGeometry.stl", "split_angle = 60*deg", 0.5, fast=True),
 ]
+# One aircraft on walls of about 6 000, 12 000 and 24 000 triangles: how much of drag and lift is due to the mesh.
+FAMILY = [of_surface(f"airplane_family_{i}", "flow360_airplane_airplaneGeometry.stl", "split_angle = 60*deg", refinement) for i, refinement in enumerate((0.5, 0.7, 1.0))]
 SHORT = ["light", "bjet"]  # bjet diverged at iteration 15 when four vertices of its plane of symmetry had no layer
 SHORT_ITERATIONS = 24
 
@@ -109,7 +112,7 @@ class Run:
 
 
 def runs_of(names: list[str], is_short: bool) -> list[Run]:
-    chosen = [aircraft for aircraft in AIRCRAFT if aircraft.name in names]
+    chosen = [aircraft for aircraft in AIRCRAFT + FAMILY if aircraft.name in names]
     runs = [Run(a, 0.2, "SpalartAllmaras") for a in chosen]
     if is_short:
         return runs
@@ -187,6 +190,23 @@ def solve(tools, arguments, run: Run, mesh: dict, folder: pathlib.Path, iteratio
 
 def aircraft(tools, arguments) -> None:
     names = arguments.aircraft or (SHORT if arguments.short else [a.name for a in AIRCRAFT])
+    compute(tools, arguments, names)
+
+
+def family(tools, arguments) -> None:
+    """Runs three meshes of one aircraft; requires that the drag of the two finest agrees within 3 %."""
+    results = compute(tools, arguments, [a.name for a in FAMILY])
+    drags = [result["CD"] for result in results if "CD" in result]
+    if len(drags) < len(FAMILY):
+        return
+    change = abs(drags[-1] - drags[-2]) / drags[-1]
+    print(f"drag of the two finest meshes differs by {100 * change:.1f} %")
+    arguments.require(change <= FAMILY_BAND, f"family: drag of the two finest meshes differs by {100 * change:.1f} %, the limit is {100 * FAMILY_BAND:.0f} %")
+
+
+def compute(tools, arguments, names: list[str]) -> list[dict]:
+    """Meshes and runs aircraft, prints their table and returns their results."""
+    results = []
     place = arguments.folder / ("aircraft_short" if arguments.short else "aircraft")
     if arguments.short:  # a test must not use meshes of another program
         shutil.rmtree(place, ignore_errors=True)
@@ -206,6 +226,7 @@ def aircraft(tools, arguments) -> None:
         except tools.subprocess.CalledProcessError as failure:
             arguments.require(False, f"{label}: {failure}; the log is in {folder}")
             continue
+        results.append(result)
         has_forces = "spread" in result
         print(f"| {body.name} | {run.mach}, {run.model} | {mesh['triangles']}, {mesh['layers']} | {result['cells']} | {result['angle']} | " +
               (f"{result['iterations']:.0f} | {result['CD']:.4f} | {result['CL']:.4f} | {100 * result['spread']:.2f} %" if has_forces else "- | - | - | -") +
@@ -213,3 +234,4 @@ def aircraft(tools, arguments) -> None:
         arguments.require(result["outcome"] == "ended" and has_forces, f"{label}: {result['says']}")
         if not arguments.short and has_forces:
             arguments.require(result["spread"] <= BAND, f"{label}: forces change by {100 * result['spread']:.2f} % over the last {WINDOW} iterations")
+    return results
