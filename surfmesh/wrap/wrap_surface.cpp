@@ -125,7 +125,7 @@ double area_of(const WrapSurface& wrap) {
 struct GapTrial {
   double gap = 0.0, alpha = 0.0;  ///< m
   WrapSurface wrap;
-  std::optional<double> leaking;  ///< result of leaking_share; none if only one gap may be tried
+  double leaking = 0.0;  ///< result of leaking_share; 0 if only one gap may be tried
 };
 
 /// What the steps of a wrap share. The first step makes it, each later step changes only the members that its comment names.
@@ -436,7 +436,7 @@ TriMesh proved_mesh(const FittedWrap& fitted, WrapWork& work) {
   return mesh;
 }
 
-void tell_result(const TriMesh& mesh, WrapWork& work) {
+void report_result(const TriMesh& mesh, WrapWork& work) {
   work.report.n_components = connected_components(mesh, Topology(mesh, work.context)).count;
   work.report.n_triangles = static_cast<std::int64_t>(mesh.n_triangles());
   work.report.n_vertices = static_cast<std::int64_t>(mesh.n_vertices());
@@ -462,7 +462,7 @@ WrapResult wrap_surface(const std::vector<SurfaceSoup>& soups, const WrapOptions
   const FittedWrap fitted = fit_wrap(wrap, surface, work.sizes, options.features, context.part("fit", k_wrap_end, k_fit_end));
   measure_wrap(fitted, surface, work.sizes, work.report, context.part("measure", k_fit_end, k_measure_end));
   TriMesh mesh = proved_mesh(fitted, work);
-  tell_result(mesh, work);
+  report_result(mesh, work);
   return {std::move(mesh), std::move(work.report)};
 }
 
