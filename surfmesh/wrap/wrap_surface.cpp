@@ -128,7 +128,7 @@ struct GapTrial {
   double leaking = 0.0;  ///< result of leaking_share; 0 if only one gap may be tried
 };
 
-/// What the steps of a wrap share. The first step makes it, each later step changes only the members that its comment names.
+/// Data shared by the steps of a wrap. begin_wrap() makes it. Every step may report; other members change only in steps whose comments say so.
 struct WrapWork {
   const WrapOptions& options;
   const RunContext& context;
@@ -373,7 +373,7 @@ std::vector<GapTrial> make_trials(WrapWork& work) {
   return trials;
 }
 
-/// Returns the trial of the smallest gap that closes the openings. Sets work.sizes.gap, and orients the parts of the input by the trial.
+/// Returns the trial of the smallest gap that closes the openings. Sets work.sizes.gap, and orients the parts of the input by this trial.
 GapTrial choose_trial(std::vector<GapTrial> trials, WrapWork& work) {
   const std::size_t chosen = least_gap(trials);
   work.sizes.gap = trials[chosen].gap;
@@ -382,7 +382,7 @@ GapTrial choose_trial(std::vector<GapTrial> trials, WrapWork& work) {
   return std::move(trials[chosen]);
 }
 
-/// Chooses the sizes again, by the area of the trial's wrap, if that wrap covers both sides of baffles.
+/// Chooses work.sizes again, by the area of the trial's wrap, if that wrap covers both sides of baffles.
 void size_by_area(const GapTrial& trial, WrapWork& work) {
   const double area = area_of(trial.wrap);
   if (!is_automatic(work.options.edge) || area <= k_both_sides * work.input.area) return;
