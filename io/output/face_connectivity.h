@@ -24,10 +24,9 @@ struct CellFace {
   std::span<const NodeId> span() const { return {nodes.data(), size}; }
 };
 
-/// Faces of a mesh. Cells are numbered as in for_each_cell(): column by column, layer by layer, then prisms, pyramids,
-/// hexahedra, tetrahedra. order_cells() changes these numbers. Inside the columns neighbours follow from the numbering; only the other faces are matched
-/// through a table: 12 bytes per face and 4 per node (0.7 GB for 25 M nodes, 45 M prisms, 17 M tetrahedra). Based on: counting sort of faces by their lowest
-/// node.
+/// Faces of a mesh. Cells are numbered as in for_each_cell(): column by column, layer by layer, then prisms, pyramids, hexahedra, tetrahedra. order_cells()
+/// changes these numbers. Inside the columns neighbours follow from the numbering; only the other faces are matched through a table: 12 bytes per face and 4
+/// per node (0.7 GB for 25 M nodes, 45 M prisms, 17 M tetrahedra). Based on: counting sort of faces by their lowest node.
 class MeshFaces {
  public:
   static constexpr std::uint32_t k_boundary = std::numeric_limits<std::uint32_t>::max();

@@ -82,7 +82,7 @@ void draw_closures(const TriMesh& mesh, const WrapInput& input, const std::vecto
   }
 }
 
-/// The wrap with what has been measured. The first steps make it, the others read it.
+/// A wrap with its measurements. compare_with_input() and list_closures() make them, the other steps read them.
 struct MeasuredWrap {
   const FittedWrap& wrap;
   const InputSurface& surface;

@@ -16,8 +16,7 @@ class SizeSupply {
  public:
   /// Uses a finished field.
   explicit SizeSupply(Borrowed<const SizeField> field) : field_(&field.get()) {}
-  /// Starts to build a field (build_size_field) in parallel to the caller. \p judge checks the finished field; if it throws, get()
-  /// rethrows the error
+  /// Starts to build a field (build_size_field) in parallel to the caller. \p judge checks the finished field; if it throws, get() rethrows the error
   SizeSupply(Borrowed<const TetraBoundary> boundary, Borrowed<const std::vector<SizeSource>> sources, const SizeFieldOptions& options,
              const RunContext& context, std::function<void(const SizeField&, const RunContext&)> judge = {});
 

@@ -99,7 +99,8 @@ TEST_P(SizedFill, ConcurrentSizeSupplyGivesTheSameMesh) {
   for (const int threads : {1, 2}) {
     const RunContext context({.threads = threads});
     const TetraBoundary boundary = domain.boundary();
-    SizeSupply sizes(boundary, {}, {}, context);
+    const std::vector<SizeSource> no_sources;
+    SizeSupply sizes(boundary, no_sources, {}, context);
     const TetraResult result = volmesh::fill(boundary, sizes, {.engine = GetParam()}, context);
     EXPECT_EQ(result.tetrahedra, expected.tetrahedra);
     EXPECT_EQ(result.new_points, expected.new_points);
