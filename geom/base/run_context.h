@@ -84,7 +84,7 @@ class RunContext {
   friend ThreadPool& pool_of(const RunContext& context);
   void report_if_long() const;
   std::shared_ptr<State> state_;
-  std::shared_ptr<ThreadPool> pool_;  ///< the pool of the state, or a separate pool
+  std::shared_ptr<ThreadPool> pool_;  ///< threads of the run, shared by all copies; contexts made by beside() have a separate pool
   bool is_beside_ = false;
   std::stop_token beside_stop_;
   std::string stage_;

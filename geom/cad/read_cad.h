@@ -55,10 +55,14 @@ struct Schema<ReadCadOptions> {
       Field<T>{.name = "cap",
                .member = &T::cap,
                .help = "close flat openings of shells with plane faces, named after the component: ends of blades and ducts, planes of symmetry"},
-      Field<T>{.name = "sheets",
-               .member = &T::sheets,
-               .help = "open shells and loose faces beside closed solids: automatic leaves out flat ones and those within a solid or on its edges (sketches, "
-                       "construction planes), with a warning; keep: all; drop: none; or name patterns of those to leave out: \"sketch*, plane 1\""},
+      Field<T>{
+          .name = "sheets",
+          .member = &T::sheets,
+          .help =
+              "treatment of open shells and loose faces beside closed solids. automatic: removes, with a warning, flat shells, shells within a solid and "
+              "shells "
+              "that share an edge with a solid (sketches, construction planes); keep: keeps all; drop: removes all; otherwise name patterns of the shells to "
+              "remove: \"sketch*, plane 1\""},
       Field<T>{.name = "fluid",
                .member = &T::fluid,
                .help = "side of the outermost closed solids on which the fluid lies: around bodies, or inside a duct or a complete domain; solids within "

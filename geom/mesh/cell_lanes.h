@@ -32,7 +32,7 @@ struct InnerFaces {
 inline Vec3 lane(const Vec3x4& v, std::size_t k) { return {v.x[k], v.y[k], v.z[k]}; }
 inline void set_lane(Vec3x4& v, std::size_t k, const Vec3& value) { v.x[k] = value.x, v.y[k] = value.y, v.z[k] = value.z; }
 inline check_parts::CellCentre lane(const CellCentres& p, std::size_t k) { return {lane(p.centre, k), p.volume[k]}; }
-/// Loads four consecutive places from memory.
+/// Loads four consecutive entries from memory.
 inline CellCentres load(const check_parts::CellCentre* at) {
   static_assert(sizeof(check_parts::CellCentre) == 4 * sizeof(double));
   const auto* values = reinterpret_cast<const double*>(at);
@@ -69,7 +69,7 @@ inline FaceShapes face_shapes(const std::array<Vec3x4, 4>& corners) {
           where(norm(normal) / (about_centre + check_parts::k_tiny), all(1.0))};
 }
 
-/// Returns determinants for cells whose faces are all inner faces; other cells need cell_shape(). `sizes`: magnitudes of the areas.
+/// Returns determinants for cells whose faces are all inner faces; other cells need cell_shape().
 template <std::size_t N>
 Packed determinants(const std::array<FaceShapes, N>& faces) {
   Packed mean = all(0.0);

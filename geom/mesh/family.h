@@ -136,7 +136,8 @@ struct Schema<FamilyTolerances> {
                .member = &O::tet_growth,
                .min = 0.0,
                .max = 1.0,
-               .help = "allowed relative deviation of growth - 1 of the tetrahedra from (g - 1)/f"},
+               .help = "allowed relative deviation of the tetrahedra's growth minus 1 in the finer mesh from (g - 1)/f; g: growth in the coarser mesh, f: "
+                       "refinement factor"},
       Field<O>{
           .name = "box",
           .member = &O::box,
@@ -148,7 +149,7 @@ struct Schema<FamilyTolerances> {
                .member = &O::fail,
                .min = 1.0,
                .max = 1000.0,
-               .help = "a deviation of more than this number of tolerances is a FAIL; from one tolerance up to it a warning"},
+               .help = "factor on the tolerances: a deviation above factor x tolerance is a FAIL, a smaller deviation above the tolerance is a warning"},
   };
 };
 

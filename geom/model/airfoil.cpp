@@ -32,7 +32,8 @@ double leading_edge_of(const Curve& curve, const std::vector<double>& t, std::si
   return 0.5 * (low + high);
 }
 
-/// Returns n locations along [from, to], with equal shares of length and of the square root of turning.
+/// Divides [from, to] into n intervals and returns their n + 1 bounds. The integral of 1/L + sqrt(curvature/L) over the arc length is the same in each
+/// interval; L is the length of the curve.
 std::vector<double> spaced(const Curve& curve, double from, double to, int n) {
   std::vector<double> sum{0.0};
   const double h = (to - from) / k_samples;

@@ -281,7 +281,8 @@ bool Recoverer::help_facet(const Facet& facet, int n_before, RecoverReport& repo
                            flips_.tet_with_edge(e[0], e[1]), report);
 }
 
-/// Recovers the entities of the list and leaves those that could not be recovered. Some become possible when others exist.
+/// Recovers the edges or facets of the list. Afterwards the list contains those that could not be recovered. The list is processed in several passes, because
+/// some become recoverable when others exist.
 template <class Make, class Help>
 void Recoverer::make_all(std::vector<std::uint32_t>& list, const Make& make, const Help& help) {
   std::size_t n_tries = 0;

@@ -58,7 +58,7 @@ std::map<std::string, PatchKind> read_edge_conditions(const std::filesystem::pat
   std::map<std::string, PatchKind> kinds;
   for (const char* const extension : {".aboc", ".bboc"}) {
     const std::filesystem::path path = stem_of(mesh_path).string() + extension;
-    std::error_code status;  // unused: a file that cannot be accessed is skipped, and load_file reports errors of others
+    std::error_code status;  // not evaluated: a file whose existence cannot be tested is skipped; load_file reports the errors of files that exist
     if (!std::filesystem::exists(path, status)) continue;
     const FileBuffer buffer = load_file(path, context);
     const FfaNode root = parse_ffa(buffer);

@@ -24,8 +24,9 @@ void add_volume_arguments(CLI::App& command, VolumeRequest& request, OptionOverr
       ->take_all();
   command
       .add_option("--wake-sheet", request.sheets,
-                  "experimental: continue layers behind trailing edges, e.g. --wake-sheet \"wing=main* length=2\" (chords), or --wake-sheet auto; growth, "
-                  "direction; may be given several times")
+                  "experimental: continue layers behind trailing edges: --wake-sheet auto, or options of wake_sheet such as --wake-sheet \"wing=main* "
+                  "length=2\" (length in chords; also growth, "
+                  "direction); may be given several times")
       ->type_name("SHEET")
       ->allow_extra_args(false)
       ->take_all();

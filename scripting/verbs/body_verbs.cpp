@@ -104,7 +104,11 @@ struct Schema<scripting::FrameOptions> {
       Field<O>{.name = "exponent", .member = &O::exponent, .min = 0.5, .max = 20.0, .help = "exponent n of a superellipse: |y|^n + |z|^n = 1; 2 = ellipse"},
       Field<O>{
           .name = "offset", .member = &O::offset, .min = -0.95, .max = 0.95, .help = "height at which a double ellipse is widest, relative to half its height"},
-      Field<O>{.name = "distortion", .member = &O::distortion, .min = -0.95, .max = 0.95, .help = "distortion of Huegelschaeffer's egg"},
+      Field<O>{.name = "distortion",
+               .member = &O::distortion,
+               .min = -0.95,
+               .max = 0.95,
+               .help = "only for shape = egg: parameter d of Huegelschaeffer's egg curve, y^2 ~ (1 - z^2)/(1 + d z); 0: ellipse, above 0: wider at the bottom"},
   };
 };
 template <>

@@ -34,7 +34,7 @@ struct ReferenceOptions {
   double feature_angle = 0.0;  ///< rad
   double line_scale = 0.0;     ///< m: length over which turns of lines are measured to find corners
   bool is_smooth = true;
-  std::vector<std::array<VertexId, 2>> noses{};  ///< edges that are lines although the surface is smooth across them
+  std::vector<std::array<VertexId, 2>> noses{};  ///< edges along smooth leading edges, which are feature lines although the surface is smooth across them
 };
 
 struct Reference {

@@ -165,7 +165,7 @@ struct Schema<surfmesh::RepairOptions> {
                .member = &O::half_tolerance,
                .min = 0.0,
                .max = 0.02,
-               .help = "largest distance of the open boundary from that plane, in body lengths"},
+               .help = "largest distance of the open boundary from the plane of the half model (option half), in body lengths"},
       Field<O>{.name = "hull",
                .member = &O::hull,
                .help = "where facets cross or more than two meet in an edge, keep only facets that the outer flow reaches from exactly one side"},

@@ -74,8 +74,8 @@ struct LayerBase {
   bool share_base_vertex(VertexId a, VertexId b) const { return ridges != nullptr && ridges->base_vertex[a] == ridges->base_vertex[b]; }
   /// Returns the multi-normal fan of a vertex; null if the vertex belongs to no fan.
   const OpenedRidges::BaseVertex* multi_normal_of(VertexId v) const;
-  /// Returns the visibility of the faces at a vertex that can be required of a growth direction. The growth lines of a multi-normal fan must be able to
-  /// converge towards the end of their ridge, where their visibility is no better than that of a single growth line.
+  /// Returns the reference visibility for growth directions at a vertex: the best smallest cosine between one direction and the face normals. In a multi-normal
+  /// fan whose ridge ends, this is at most the visibility of a single growth line, because the lines must be able to converge towards that end.
   double cone_visibility(VertexId v) const;
   /// Returns true if an edge of the wall belongs to a virtual triangle. Such edges are no features.
   bool is_in_gap(HalfedgeId h) const {

@@ -12,11 +12,12 @@
 
 namespace sterna::volmesh {
 
-/// A boundary whose sheets have only one side. Points keep their order. Of two points at one location the first is kept.
+/// A boundary in which each baffle is a single layer of facets: its two sides are joined. Points keep their order. If two points have the same location, only
+/// the first is kept.
 struct JoinedBoundary {
   std::vector<Vec3> points;
-  std::vector<std::array<std::uint32_t, 3>> facets;  ///< triangles of the boundary, then those of the sheets, which are represented by their first side
-  std::size_t n_baffles = 0;                         ///< number of sheet facets, which are the last
+  std::vector<std::array<std::uint32_t, 3>> facets;  ///< triangles of the boundary, then those of the baffles, which are represented by their first side
+  std::size_t n_baffles = 0;                         ///< number of baffle facets, which are the last
   std::vector<std::uint32_t> facet2triangle;         ///< triangle of the boundary for each facet
   std::vector<std::array<std::uint32_t, 2>>
       sources;  ///< points in the boundary on the first and on the second side for each point; both are the same if both sides share the point
@@ -26,7 +27,7 @@ struct JoinedBoundary {
 };
 
 /// Joins triangles with the same three locations and opposite orientation. Serial, O(n log n).
-/// \throws Error(bad_argument) with the location for an index out of range, for three points at one location, for a sheet's triangle whose corners are all
+/// \throws Error(bad_argument) with the location for an index out of range, for three points at one location, for a baffle's triangle whose corners are all
 /// shared by both sides (its sides cannot be distinguished), and if no triangles lie back to back
 JoinedBoundary join_baffles(const TetraBoundary& boundary, const RunContext& context);
 
