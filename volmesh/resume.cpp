@@ -49,7 +49,8 @@ LayerKnowledge reprove(const LayerBase& base, Collider& collider, const Domain& 
                        const RunContext& context) {
   require_clear_input(collider, context);
   LayerKnowledge knowledge;
-  knowledge.certificate = certify_envelope(base, collider, filled.envelope.envelope, context);
+  const TestedEnvelope tested = certify_envelope(base, collider, filled.envelope.envelope, context);
+  knowledge.certificate = tested;
   EnvelopeOptions envelope_options = options.envelope;
   envelope_options.feature_angle = filled.envelope.feature_angle;
   Extrusion extrusion{.layers = std::move(filled.layers.layers),
@@ -60,6 +61,7 @@ LayerKnowledge reprove(const LayerBase& base, Collider& collider, const Domain& 
   filled.layers.points.raw() = std::move(extrusion.points);
   filled.layers.request = layer_request(base, envelope_options, filled.envelope.envelope, filled.layers.layers);
   open_wall_discs(domain, filled.layers.request);
+  ClearProof clear = tested.clear;
   if (domain.has_borders()) {
     const FillBoundary boundary = boundary_of(filled.layers);
     TetraBoundary for_engines{.points = boundary.points,
@@ -68,7 +70,9 @@ LayerKnowledge reprove(const LayerBase& base, Collider& collider, const Domain& 
                               .patch_names = boundary.patch_names,
                               .triangle_patch = boundary.triangle_patch};
     for_engines.has_baffles = !options.discs.empty();
-    judge(preflight(for_engines, {}, context), for_engines, context);
+    const PreflightReport report = preflight(for_engines, {}, context);
+    judge(report, for_engines, context);
+    clear = report.clear;
   }
   if (domain.is_opened()) {
     knowledge.boundary = boundary_of(filled.layers);
@@ -78,7 +82,7 @@ LayerKnowledge reprove(const LayerBase& base, Collider& collider, const Domain& 
   LayerProof proof = prove_layer(knowledge.closed ? *knowledge.closed : filled.layers, context);
   require_proved_cells(proof.cells, knowledge.certificate);
   knowledge.check.emplace(std::move(proof.check));
-  if (!filled.split_wall) knowledge.second = second_engine(options, find_cavity_points(domain.bodies, context), !domain.sheets.is_empty());
+  if (!filled.split_wall) knowledge.second = second_engine(options, find_cavity_points(domain.bodies, context), clear, !domain.sheets.is_empty());
   return knowledge;
 }
 

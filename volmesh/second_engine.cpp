@@ -96,7 +96,7 @@ std::optional<TetraResult> fill_again(const FillBoundary& boundary, const Second
   TetraBoundary domain{.points = boundary.points,
                        .triangles = boundary.triangles,
                        .hole_points = second.holes,
-                       .is_clear = true,
+                       .clear = second.clear,
                        .patch_names = boundary.patch_names,
                        .triangle_patch = boundary.triangle_patch};
   domain.has_baffles = second.has_baffles;

@@ -18,7 +18,8 @@ struct SecondEngine {
   TetraOptions tetrahedra;
   std::vector<SizeSource> sources;
   SizeFieldOptions sizes;
-  std::vector<Vec3> holes;  ///< as in TetraBoundary::hole_points
+  std::vector<Vec3> holes;  ///< these members as in TetraBoundary
+  ClearProof clear;
   bool has_baffles = false;
   bool has_wakes = false;
 };

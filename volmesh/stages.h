@@ -94,7 +94,8 @@ EnvelopeStage make_envelope(LayerDomain& layer_domain, const Makers& makers, con
 FilledStage make_tetrahedra(LayerDomain& layer_domain, EnvelopeStage envelope, const Makers& makers, LayerKnowledge& knowledge, const RunContext& context);
 /// \throws Error(bad_argument) if an envelope does not have exactly one height for each vertex
 void require_envelope_of(const LayerBase& base, const EnvelopeStage& stage);
-SecondEngine second_engine(const MeshCase& options, std::vector<Point> holes, bool has_wakes);
+/// \p clear proof for the boundary that the engine will fill
+SecondEngine second_engine(const MeshCase& options, std::vector<Point> holes, ClearProof clear, bool has_wakes);
 VolumeMeshResult finish_mesh(FilledStage filled, LayerKnowledge knowledge, const ImproveOptions& options, const RunContext& context);
 
 }  // namespace sterna::volmesh

@@ -70,9 +70,13 @@ void report_slivers(const SliverReport& slivers, const SliverOptions& options, c
                "); the first one is at " + format_point(slivers.first_left) + hint);
 }
 
-/// Returns the boundary for engines. \p is_clear true if it has already been verified; false if patches were re-meshed
-TetraBoundary boundary_for_engines(const FillBoundary& boundary, std::span<const Point> holes, bool is_clear, bool may_split) {
-  return {boundary.points, boundary.triangles, holes, is_clear, boundary.patch_names, boundary.triangle_patch, may_split};
+TetraBoundary boundary_for_engines(const FillBoundary& boundary, std::span<const Point> holes, ClearProof clear) {
+  return {.points = boundary.points,
+          .triangles = boundary.triangles,
+          .hole_points = holes,
+          .clear = clear,
+          .patch_names = boundary.patch_names,
+          .triangle_patch = boundary.triangle_patch};
 }
 
 /// Result of one attempt to make the tetrahedra.
@@ -81,6 +85,7 @@ struct Filling {
   std::optional<SplitLayer> split;  ///< set if the engine has split triangles: the layer with the same splits
   std::optional<LayerProof> proof;  ///< verification of the layer that the tetrahedra surround
   std::vector<Point> holes;
+  ClearProof clear;  ///< proof for the boundary
 };
 
 /// Fills the volume inside the split boundary again, which is now kept, after the layer had to be lowered for the splits.
@@ -88,7 +93,7 @@ void refill(const SplitLayer& layer, const MeshCase& options, TetraResult& tets,
   TetraOptions keeping = options.tetrahedra;
   keeping.boundary_splits = "never";
   const std::vector<Point> holes = find_cavity_points(*layer.wall, context);
-  const TetraBoundary domain = boundary_for_engines(layer.boundary, holes, true, false);
+  const TetraBoundary domain = boundary_for_engines(layer.boundary, holes, layer.clear);
   SizeSupply sizes(domain, options.sources, options.size, context);
   tets = fill(domain, sizes, keeping, context);
 }
@@ -117,8 +122,9 @@ Filling fill_around(const LayerDomain& layer_domain, const Envelope& envelope, c
   // The boundary must stay unchanged if layers end on other patches, if sides are periodic, if ridges are opened, or if wakes have sheets.
   const bool may_split = layer_domain.base.wall.n_triangles() > 0 && !layer_domain.domain.has_borders() && layer_domain.domain.periodic.empty() &&
                          !layer_domain.domain.is_opened();
+  const SplitPermission splits = may_split ? SplitPermission::permitted : SplitPermission::never;
   filling.holes = find_cavity_points(layer_domain.domain.bodies, context);
-  TetraBoundary domain = boundary_for_engines(layer.boundary, filling.holes, !layer_domain.domain.has_borders(), may_split);
+  TetraBoundary domain = boundary_for_engines(layer.boundary, filling.holes, layer.clear);
   domain.has_baffles = !layer_domain.options.discs.empty();
   domain.has_wakes = !layer_domain.domain.sheets.is_empty();
   const CellCounts cells = count_cells(layer.mesh);
@@ -128,13 +134,14 @@ Filling fill_around(const LayerDomain& layer_domain, const Envelope& envelope, c
     require_room(forecast, layer_domain.options.limits, side);
   });
   const StepEnds ends = step_ends(context.threads());
-  TetraLadder ladder(domain, &sizes, layer_domain.options.tetrahedra, context.part("tetrahedra", ends.prisms, ends.tetrahedra));
+  TetraLadder ladder(domain, &sizes, layer_domain.options.tetrahedra, splits, context.part("tetrahedra", ends.prisms, ends.tetrahedra));
+  filling.clear = ladder.proof();
   Alongside<LayerProof> proof(context, ladder.begins_here() ? context.threads() : context.threads() - 1, [&sizes, &layer](const RunContext& side) {
     sizes.wait();  // the verification waits, because the engine needs the sizes sooner
     return prove_layer(layer.mesh, side);
   });
   climb(layer_domain, envelope, makers, ladder, filling, context);
-  filling.proof.emplace(proof.take());
+  filling.proof.emplace(std::move(proof).take());
   return filling;
 }
 
@@ -156,6 +163,7 @@ LaidLayer adopted(SplitLayer& split, const LaidLayer& unsplit, const EnvelopeOpt
                std::to_string(split.boundary.triangles.size() - unsplit.boundary.triangles.size()) + " more triangles");
   LaidLayer layer;
   layer.certificate = split.certificate;
+  layer.clear = split.clear;
   layer.report = report_layer(*split.base, options, split.envelope, split.extrusion, split.outer.get(), context);
   layer.curving_shares = split.extrusion.curving_shares;
   layer.mesh = assemble_layers(*split.base, std::move(split.extrusion), unlinked(*split.outer), {});
@@ -338,7 +346,7 @@ FilledStage make_tetrahedra(LayerDomain& layer_domain, EnvelopeStage stage, cons
   require_proved_cells(filling.proof->cells, layer.certificate);
 
   knowledge = {std::move(layer.report), std::move(layer.certificate), std::move(filling.proof->check), {}, {}};
-  if (!filling.split) knowledge.second = second_engine(layer_domain.options, std::move(filling.holes), !layer_domain.domain.sheets.is_empty());
+  if (!filling.split) knowledge.second = second_engine(layer_domain.options, std::move(filling.holes), filling.clear, !layer_domain.domain.sheets.is_empty());
   filled.envelope = std::move(stage);
   filled.is_opened = layer.opened.has_value();
   if (filled.is_opened) {
@@ -352,11 +360,12 @@ FilledStage make_tetrahedra(LayerDomain& layer_domain, EnvelopeStage stage, cons
   return filled;
 }
 
-SecondEngine second_engine(const MeshCase& options, std::vector<Point> holes, bool has_wakes) {
+SecondEngine second_engine(const MeshCase& options, std::vector<Point> holes, ClearProof clear, bool has_wakes) {
   return {.tetrahedra = options.tetrahedra,
           .sources = options.sources,
           .sizes = options.size,
           .holes = std::move(holes),
+          .clear = clear,
           .has_baffles = !options.discs.empty(),
           .has_wakes = has_wakes};
 }

@@ -51,9 +51,9 @@ class Alongside {
   bool is_done() const { return ended_.try_wait(); }
   /// Waits for the end of the work; may be called from any thread.
   void wait() const { ended_.wait(); }
-  /// Waits for the result and returns it; call once.
+  /// Waits for the result and returns it. std::move(work).take() marks that the result can be taken only once. is_done() and wait() remain valid.
   /// \throws any exception thrown by the work
-  T take() {
+  T take() && {
     if (thread_.joinable()) thread_.join();
     if (exception_) std::rethrow_exception(exception_);
     return std::move(*result_);

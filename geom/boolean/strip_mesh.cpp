@@ -66,7 +66,7 @@ void TriangleGrid::remove(TriangleId triangle, const Box& box) {
 // ---- Queries ----
 
 StripMesh::StripMesh(Column<VertexId, Vec3> given_points, Column<TriangleId, StripTriangle> given_triangles, const StripLimits& limits,
-                     const TriangleTree& reference)
+                     Borrowed<const TriangleTree> reference)
     : points(std::move(given_points)),
       triangles(std::move(given_triangles)),
       is_alive(triangles.size(), 0),

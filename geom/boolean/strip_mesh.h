@@ -9,6 +9,7 @@
 #include <unordered_map>
 #include <vector>
 
+#include "geom/base/borrowed.h"
 #include "geom/base/ids.h"
 #include "geom/mesh/bvh.h"
 
@@ -66,9 +67,9 @@ struct CollapseLimits {
 /// Mesh with local operations. Vertices and triangles are never renumbered; removed ones leave unused slots.
 class StripMesh {
  public:
-  /// `reference`: the surface that limits the deviation; must outlive this object.
+  /// `reference`: the surface that limits the deviation.
   /// \pre closed, manifold
-  StripMesh(Column<VertexId, Vec3> points, Column<TriangleId, StripTriangle> triangles, const StripLimits& limits, const TriangleTree& reference);
+  StripMesh(Column<VertexId, Vec3> points, Column<TriangleId, StripTriangle> triangles, const StripLimits& limits, Borrowed<const TriangleTree> reference);
 
   Column<VertexId, Vec3> points;
   Column<TriangleId, StripTriangle> triangles;

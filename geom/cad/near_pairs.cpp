@@ -22,6 +22,8 @@
 #include <algorithm>
 #include <map>
 #include <memory>
+#include <type_traits>
+#include <utility>
 #include <vector>
 
 #include "geom/mesh/bvh.h"
@@ -192,7 +194,7 @@ class NearPairs : public BOPDS_Iterator {
     return false;
   }
 
-  const RunContext& context_;
+  RunContext context_;
   std::map<int, std::unique_ptr<BoxTree>> trees_;
 };
 
@@ -201,8 +203,9 @@ class NearPairs : public BOPDS_Iterator {
 void NearPairsFiller::Init(const Message_ProgressRange& range) {
   BOPAlgo_PaveFiller::Init(range);
   if (HasErrors()) return;
-  delete myIterator;
-  myIterator = new NearPairs(myAllocator, context_);
+  // The filler deletes its iterator through the base class, and has the same pointer until the next one exists.
+  static_assert(std::has_virtual_destructor_v<BOPDS_Iterator>);
+  delete std::exchange(myIterator, new NearPairs(myAllocator, context_));
   myIterator->SetRunParallel(myRunParallel);
   myIterator->SetDS(myDS);
   myIterator->Prepare(myContext, myUseOBB, myFuzzyValue);

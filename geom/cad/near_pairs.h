@@ -18,7 +18,7 @@ class NearPairsFiller : public BOPAlgo_PaveFiller {
   void Init(const Message_ProgressRange& range) override;
 
  private:
-  const RunContext& context_;
+  RunContext context_;
 };
 
 }  // namespace sterna::cad

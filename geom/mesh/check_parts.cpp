@@ -35,11 +35,11 @@ void Findings::store(CheckReport& report) {
   report.findings = std::move(kept_);
 }
 
-CellNumbers::CellNumbers(const HybridMesh& mesh) : mesh_(mesh) {
-  first_[0] = std::uint64_t{mesh.layers.n_columns()} * static_cast<std::uint64_t>(std::max(mesh.layers.n_layers, 0));
-  first_[1] = first_[0] + mesh.prisms.size();
-  first_[2] = first_[1] + mesh.pyramids.size();
-  first_[3] = first_[2] + mesh.hexahedra.size();
+CellNumbers::CellNumbers(Borrowed<const HybridMesh> mesh) : mesh_(mesh) {
+  first_[0] = std::uint64_t{mesh->layers.n_columns()} * static_cast<std::uint64_t>(std::max(mesh->layers.n_layers, 0));
+  first_[1] = first_[0] + mesh->prisms.size();
+  first_[2] = first_[1] + mesh->pyramids.size();
+  first_[3] = first_[2] + mesh->hexahedra.size();
 }
 
 Cell CellNumbers::cell(std::uint64_t number) const {
@@ -81,12 +81,12 @@ std::string CellNumbers::name(std::uint64_t number) const {
   return of_kind(CellKind::tetrahedron, in_columns(CellKind::tetrahedron) + number - first_[3]);
 }
 
-FaceSlots::FaceSlots(const HybridMesh& mesh, const CellNumbers& cells, std::vector<OpenSide> open_sides)
+FaceSlots::FaceSlots(Borrowed<const HybridMesh> mesh, Borrowed<const CellNumbers> cells, std::vector<OpenSide> open_sides)
     : mesh_(mesh), cells_(cells), open_sides_(std::move(open_sides)) {
-  const auto n_layers = static_cast<std::uint64_t>(std::max(mesh.layers.n_layers, 0));
-  const std::array<std::uint64_t, k_n_blocks> sizes = {2 * mesh.layers.n_columns(),    open_sides_.size() * n_layers, 5 * mesh.prisms.size(),
-                                                       5 * mesh.pyramids.size(),       6 * mesh.hexahedra.size(),     4 * mesh.tetrahedra.size(),
-                                                       mesh.boundary_triangles.size(), mesh.boundary_quads.size()};
+  const auto n_layers = static_cast<std::uint64_t>(std::max(mesh->layers.n_layers, 0));
+  const std::array<std::uint64_t, k_n_blocks> sizes = {2 * mesh->layers.n_columns(),    open_sides_.size() * n_layers, 5 * mesh->prisms.size(),
+                                                       5 * mesh->pyramids.size(),       6 * mesh->hexahedra.size(),    4 * mesh->tetrahedra.size(),
+                                                       mesh->boundary_triangles.size(), mesh->boundary_quads.size()};
   std::uint64_t first = 0;
   for (std::size_t block = 0; block < k_n_blocks; ++block) {
     first += sizes[block];

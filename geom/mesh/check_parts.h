@@ -10,6 +10,7 @@
 #include <string>
 #include <vector>
 
+#include "geom/base/borrowed.h"
 #include "geom/base/parallel.h"
 #include "geom/mesh/check.h"
 #include "geom/mesh/dual_metrics.h"
@@ -56,7 +57,7 @@ class Findings {
 /// layers, hold numbers without cells.
 class CellNumbers {
  public:
-  explicit CellNumbers(const HybridMesh& mesh);
+  explicit CellNumbers(Borrowed<const HybridMesh> mesh);
   std::uint64_t first_prism() const { return first_[0]; }
   std::uint64_t first_pyramid() const { return first_[1]; }
   std::uint64_t first_hexahedron() const { return first_[2]; }
@@ -90,7 +91,7 @@ struct OpenSide {
 class FaceSlots {
  public:
   /// \throws Error(overflow) when the slots do not fit 31 bits (some 500 million tets).
-  FaceSlots(const HybridMesh& mesh, const CellNumbers& cells, std::vector<OpenSide> open_sides);
+  FaceSlots(Borrowed<const HybridMesh> mesh, Borrowed<const CellNumbers> cells, std::vector<OpenSide> open_sides);
 
   std::uint32_t size() const { return first_.back(); }
   std::uint32_t first_boundary() const { return first_[k_boundary_triangles]; }
@@ -261,7 +262,7 @@ class GivenLayer;
 /// Data for proofs that layer values are forced by the input surface; computed at the first call of get().
 class LazyGivenLayer {
  public:
-  explicit LazyGivenLayer(const HybridMesh& mesh);
+  explicit LazyGivenLayer(Borrowed<const HybridMesh> mesh);
   ~LazyGivenLayer();
   const GivenLayer& get();
 

@@ -5,6 +5,7 @@
 #include <cstdint>
 #include <vector>
 
+#include "geom/base/borrowed.h"
 #include "geom/mesh/lanes.h"
 
 namespace sterna {
@@ -19,7 +20,7 @@ struct PrismMeasures {
 
 class ColumnScan {
  public:
-  explicit ColumnScan(const HybridMesh& mesh) : mesh_(mesh) {}
+  explicit ColumnScan(Borrowed<const HybridMesh> mesh) : mesh_(mesh) {}
   /// Returns the measures of the prisms of a column from the wall up; valid until the next call.
   /// \pre is_prismatic(column)
   const std::vector<PrismMeasures>& measure(std::size_t column);

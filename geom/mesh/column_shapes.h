@@ -6,6 +6,7 @@
 #include <span>
 #include <vector>
 
+#include "geom/base/borrowed.h"
 #include "geom/mesh/cell_shapes.h"
 #include "geom/mesh/lanes.h"
 
@@ -15,7 +16,7 @@ namespace sterna::check_parts {
 /// valid until the next call of the same member.
 class ColumnShapes {
  public:
-  explicit ColumnShapes(const HybridMesh& mesh) : mesh_(mesh) {}
+  explicit ColumnShapes(Borrowed<const HybridMesh> mesh) : mesh_(mesh) {}
 
   /// Sets the column for the members below.
   /// \pre none of its lines is collapsed

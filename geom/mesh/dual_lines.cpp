@@ -12,8 +12,8 @@ namespace sterna::dual_parts {
 
 using namespace lanes;
 
-LineDual::LineDual(const HybridMesh& mesh, const LineRings& rings) : mesh_(mesh), rings_(rings) {
-  n_padded_ = padded_size(mesh.layers.n_layers);
+LineDual::LineDual(Borrowed<const HybridMesh> mesh, Borrowed<const LineRings> rings) : mesh_(mesh), rings_(rings) {
+  n_padded_ = padded_size(mesh->layers.n_layers);
   upward_.assign(n_padded_, 0.0);
   for (std::vector<double>* values : {&least_above_, &most_above_, &sum_above_, &least_below_, &most_below_, &sum_below_}) values->assign(n_padded_, 0.0);
   metrics_.resize(n_padded_);

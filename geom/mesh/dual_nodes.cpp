@@ -53,7 +53,7 @@ std::vector<std::uint8_t> find_regular_lines(const LayerBlock& layers, const Lin
   return is_regular;
 }
 
-NodeDual::NodeDual(const HybridMesh& mesh, const LineRings& rings) : mesh_(mesh), rings_(rings) {
+NodeDual::NodeDual(Borrowed<const HybridMesh> mesh, Borrowed<const LineRings> rings) : mesh_(mesh), rings_(rings) {
   for (const CellKind kind : {CellKind::tetrahedron, CellKind::pyramid, CellKind::prism, CellKind::hexahedron}) {
     for (const LocalFace& face : cell_faces(kind)) {
       for (std::size_t k = 0; k < face.size; ++k) {
@@ -67,11 +67,11 @@ NodeDual::NodeDual(const HybridMesh& mesh, const LineRings& rings) : mesh_(mesh)
     }
   }
   first_[0] = 0;
-  first_[1] = mesh.prisms.size();
-  first_[2] = first_[1] + mesh.pyramids.size();
-  first_[3] = first_[2] + mesh.hexahedra.size();
-  first_[4] = first_[3] + mesh.tetrahedra.size();
-  first_[5] = first_[4] + mesh.boundary_triangles.size();
+  first_[1] = mesh->prisms.size();
+  first_[2] = first_[1] + mesh->pyramids.size();
+  first_[3] = first_[2] + mesh->hexahedra.size();
+  first_[4] = first_[3] + mesh->tetrahedra.size();
+  first_[5] = first_[4] + mesh->boundary_triangles.size();
 }
 
 NodeDual::Edge& NodeDual::edge_to(std::uint32_t other) {

@@ -6,6 +6,7 @@
 #include <span>
 #include <vector>
 
+#include "geom/base/borrowed.h"
 #include "geom/mesh/dual_metrics.h"
 #include "geom/mesh/lanes.h"
 #include "geom/mesh/node_subset.h"
@@ -48,7 +49,7 @@ std::vector<std::uint8_t> find_regular_lines(const LayerBlock& layers, const Lin
 /// Computes the metrics of the inner nodes of regular lines, line by line, vectorised over the layers.
 class LineDual {
  public:
-  LineDual(const HybridMesh& mesh, const LineRings& rings);
+  LineDual(Borrowed<const HybridMesh> mesh, Borrowed<const LineRings> rings);
   /// Returns the metrics of layers 1 .. n - 1 of a regular line of n layers; valid until the next call.
   std::span<const NodeMetrics> measure(std::uint32_t line);
   std::vector<std::uint64_t> take_suspects() { return std::move(suspects_); }
@@ -81,7 +82,7 @@ class LineDual {
 /// Computes the metrics of any node from the cells and boundary faces around it. Used for all nodes that LineDual does not cover.
 class NodeDual {
  public:
-  NodeDual(const HybridMesh& mesh, const LineRings& rings);
+  NodeDual(Borrowed<const HybridMesh> mesh, Borrowed<const LineRings> rings);
   /// Measures a node of a line (`line` valid) or off lines (NodeId::k_invalid). `cells` lists explicit cells and boundary faces by common number, in the order
   /// of `first_`.
   NodeMetrics measure(std::uint32_t node, std::uint32_t line, std::span<const std::uint32_t> cells);

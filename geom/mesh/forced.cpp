@@ -18,10 +18,10 @@ constexpr const char* k_open_edge = "open or fill the edge in the input surface"
 
 }  // namespace
 
-GivenBoundary::GivenBoundary(const HybridMesh& mesh) : mesh_(mesh) {
-  const auto is_wall = [&](PatchId patch) { return patch.index() < mesh.patches.size() && mesh.patches[patch].kind == PatchKind::wall; };
-  for (std::size_t t = 0; t < mesh.boundary_triangles.size(); ++t) {
-    const BoundaryTriangle& triangle = mesh.boundary_triangles[t];
+GivenBoundary::GivenBoundary(Borrowed<const HybridMesh> mesh) : mesh_(mesh) {
+  const auto is_wall = [&](PatchId patch) { return patch.index() < mesh->patches.size() && mesh->patches[patch].kind == PatchKind::wall; };
+  for (std::size_t t = 0; t < mesh->boundary_triangles.size(); ++t) {
+    const BoundaryTriangle& triangle = mesh->boundary_triangles[t];
     for (std::size_t k = 0; k < 3; ++k) {
       const std::uint32_t a = triangle.nodes[k].value(), b = triangle.nodes[(k + 1) % 3].value();
       boundary_sides_.push_back({std::minmax(a, b), static_cast<std::uint32_t>(t)});
@@ -33,7 +33,7 @@ GivenBoundary::GivenBoundary(const HybridMesh& mesh) : mesh_(mesh) {
   std::sort(boundary_sides_.begin(), boundary_sides_.end());
   std::sort(wall_edges_.begin(), wall_edges_.end());
   wall_edges_.erase(std::unique(wall_edges_.begin(), wall_edges_.end()), wall_edges_.end());
-  for (std::size_t k = 0; k < mesh.layers.n_lines(); ++k) line_at_.push_back({mesh.layers.first_node[k], static_cast<std::uint32_t>(k)});
+  for (std::size_t k = 0; k < mesh->layers.n_lines(); ++k) line_at_.push_back({mesh->layers.first_node[k], static_cast<std::uint32_t>(k)});
   std::sort(line_at_.begin(), line_at_.end());
 }
 

@@ -9,13 +9,14 @@
 #include <utility>
 #include <vector>
 
+#include "geom/base/borrowed.h"
 #include "geom/mesh/check_parts.h"
 
 namespace sterna::check_parts {
 
 class GivenBoundary {
  public:
-  explicit GivenBoundary(const HybridMesh& mesh);
+  explicit GivenBoundary(Borrowed<const HybridMesh> mesh);
 
   /// Returns a proof for G16. A wall node has the same wall edges in any mesh, so the ratio of their lengths bounds the measure. In layer j the ends of an edge
   /// are at most d and d' away from their base vertices. The longest wall edge L is then at least L - d - d' long, and the shortest, s, at most s + d + d'.

@@ -68,8 +68,8 @@ struct GivenLayer::Room {
   double most_along(const Vec3& direction) const { return std::max(0.0, std::cos(std::max(0.0, angle_between(best, direction) - k_lean_room))); }
 };
 
-GivenLayer::GivenLayer(const HybridMesh& mesh) : mesh_(mesh), rings_(mesh.layers), mirror_normals_(mesh) {
-  for (std::size_t k = 0; k < mesh.layers.n_lines(); ++k) line_at_.push_back({mesh.layers.first_node[k], static_cast<std::uint32_t>(k)});
+GivenLayer::GivenLayer(Borrowed<const HybridMesh> mesh) : mesh_(mesh), rings_(mesh->layers), mirror_normals_(mesh) {
+  for (std::size_t k = 0; k < mesh->layers.n_lines(); ++k) line_at_.push_back({mesh->layers.first_node[k], static_cast<std::uint32_t>(k)});
   std::sort(line_at_.begin(), line_at_.end());
 }
 
@@ -314,7 +314,7 @@ std::optional<Forcing> GivenLayer::interface_height(std::size_t column, std::spa
   return std::nullopt;
 }
 
-LazyGivenLayer::LazyGivenLayer(const HybridMesh& mesh) : mesh_(mesh) {}
+LazyGivenLayer::LazyGivenLayer(Borrowed<const HybridMesh> mesh) : mesh_(mesh) {}
 LazyGivenLayer::~LazyGivenLayer() = default;
 const GivenLayer& LazyGivenLayer::get() {
   if (!given_) given_ = std::make_unique<const GivenLayer>(mesh_);

@@ -12,6 +12,7 @@
 #include <utility>
 #include <vector>
 
+#include "geom/base/borrowed.h"
 #include "geom/math/measures.h"
 #include "geom/mesh/dual_parts.h"
 #include "geom/mesh/gates.h"
@@ -39,7 +40,7 @@ struct ColumnSide {
 
 class GivenLayer {
  public:
-  explicit GivenLayer(const HybridMesh& mesh);
+  explicit GivenLayer(Borrowed<const HybridMesh> mesh);
 
   /// Returns a proof for G5. Where the layer is thin, the dual faces across a line are parallel to the sum of the facets at its base, and no line that sees
   /// all facets comes close to the normal of that sum.

@@ -18,7 +18,7 @@ class NodeSubset {
     const std::uint64_t bit = std::uint64_t{1} << (node % 64);
     if ((word.load(std::memory_order_relaxed) & bit) == 0) word.fetch_or(bit, std::memory_order_relaxed);
   }
-  /// Numbers the members by ascending node. Call once, after the last insert.
+  /// Numbers the members by ascending node. Call after the last insert.
   void number() {
     rank_.resize(bits_.size() + 1);
     rank_[0] = 0;

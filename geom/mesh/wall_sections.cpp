@@ -27,7 +27,7 @@ bool has_patches(const HybridMesh& mesh) {
 
 }  // namespace
 
-WallSections::WallSections(const HybridMesh& mesh, const RunContext& context) : mesh_(mesh) {
+WallSections::WallSections(Borrowed<const HybridMesh> mesh, const RunContext& context) : mesh_(mesh) {
   choose_triangles(mesh);
   edges_.reserve(3 * triangles_.size());
   for (std::uint32_t t = 0; t < triangles_.size(); ++t) {

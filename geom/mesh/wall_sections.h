@@ -7,6 +7,7 @@
 #include <utility>
 #include <vector>
 
+#include "geom/base/borrowed.h"
 #include "geom/base/run_context.h"
 #include "geom/mesh/hybrid_mesh.h"
 
@@ -31,7 +32,7 @@ struct EdgeChain {
 
 class WallSections {
  public:
-  WallSections(const HybridMesh& mesh, const RunContext& context);
+  WallSections(Borrowed<const HybridMesh> mesh, const RunContext& context);
 
   bool empty() const { return triangles_.empty(); }
   const std::vector<WallTriangle>& triangles() const { return triangles_; }

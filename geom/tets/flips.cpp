@@ -27,11 +27,11 @@ constexpr int k_most_walk = 2000;  ///< steps of the walk to a new point
 
 }  // namespace
 
-Flips::Flips(TetMesh& mesh, const FacetIndex& required) : mesh_(mesh), required_(required) {
-  tet_at_.assign(mesh.points.size(), k_none);
-  for (std::uint32_t t = 0; t < mesh.nodes.size(); ++t) {
-    if (!mesh.is_alive(t)) continue;
-    for (const std::uint32_t v : mesh.nodes[t]) tet_at_[v] = t;
+Flips::Flips(Borrowed<TetMesh> mesh, Borrowed<const FacetIndex> required) : mesh_(mesh), required_(required) {
+  tet_at_.assign(mesh->points.size(), k_none);
+  for (std::uint32_t t = 0; t < mesh->nodes.size(); ++t) {
+    if (!mesh->is_alive(t)) continue;
+    for (const std::uint32_t v : mesh->nodes[t]) tet_at_[v] = t;
   }
 }
 

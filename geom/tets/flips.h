@@ -6,6 +6,7 @@
 #include <span>
 #include <vector>
 
+#include "geom/base/borrowed.h"
 #include "geom/tets/facets.h"
 #include "geom/tets/tet_mesh.h"
 
@@ -27,7 +28,7 @@ struct FlipCosts {
 class Flips {
  public:
   /// The edges and facets of the second argument are kept where they exist.
-  Flips(TetMesh& mesh, const FacetIndex& required);
+  Flips(Borrowed<TetMesh> mesh, Borrowed<const FacetIndex> required);
 
   const TetMesh& mesh() const { return mesh_; }
   const FacetIndex& required() const { return required_; }

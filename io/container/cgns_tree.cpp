@@ -43,7 +43,7 @@ const std::vector<std::string>& cgns_labels_beside_the_mesh() {
   return k_labels;
 }
 
-CgnsTree::CgnsTree(const ContainerImage& image) : image_(image), root_(node_of(image.root())) {}
+CgnsTree::CgnsTree(Borrowed<const ContainerImage> image) : image_(image), root_(node_of(image->root())) {}
 
 CgnsNode CgnsTree::node_of(const ContainerNode& group) const {
   CgnsNode node{.path = group.path, .name = group.name, .location = &group};

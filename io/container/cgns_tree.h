@@ -7,6 +7,7 @@
 #include <string_view>
 #include <vector>
 
+#include "geom/base/borrowed.h"
 #include "io/container/container_image.h"
 
 namespace sterna::io {
@@ -30,8 +31,7 @@ const std::vector<std::string>& cgns_labels_beside_the_mesh();
 /// Readers throw Error file_malformed (path, expectation) and unsupported_format.
 class CgnsTree {
  public:
-  /// \pre `image` outlives the tree and its data
-  explicit CgnsTree(const ContainerImage& image);
+  explicit CgnsTree(Borrowed<const ContainerImage> image);
   const CgnsNode& root() const { return root_; }
   /// Returns the data of a node; extents are fastest first, as in CGNS. Empty (count() == 0) for a node of type "MT".
   NumberArray data(const CgnsNode& node) const;

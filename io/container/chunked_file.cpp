@@ -66,7 +66,7 @@ std::size_t size_of(NumberType type) {
 
 bool is_chunked_file(std::string_view head) { return head.starts_with(k_magic); }
 
-ChunkedWriter::ChunkedWriter(AtomicFile& file) : file_(file) { file_.append(std::string(k_head_bytes, '\0')); }
+ChunkedWriter::ChunkedWriter(Borrowed<AtomicFile> file) : file_(file) { file_.append(std::string(k_head_bytes, '\0')); }
 
 void ChunkedWriter::pack(std::string_view name, NumberType type, std::uint32_t n_components, std::uint64_t n_values, const FindValues& find,
                          const RunContext& context) {
@@ -148,15 +148,15 @@ void ChunkedWriter::finish(std::uint32_t version) {
   file_.overwrite(0, head);
 }
 
-ChunkedReader::ChunkedReader(const FileBuffer& buffer) : buffer_(buffer) {
-  const std::string_view text = buffer.text();
+ChunkedReader::ChunkedReader(Borrowed<const FileBuffer> buffer) : buffer_(buffer) {
+  const std::string_view text = buffer_.text();
   if (!is_chunked_file(text))
-    throw_malformed(buffer.source, "byte 0", "found " + quoted_excerpt(text.substr(0, k_magic.size())) + ", expected the head of a .sterna file");
+    throw_malformed(buffer_.source, "byte 0", "found " + quoted_excerpt(text.substr(0, k_magic.size())) + ", expected the head of a .sterna file");
   ByteReader head(buffer, std::endian::little, k_magic.size());
   head.require(1, k_head_bytes - k_magic.size(), "the head");
   const auto version = head.take<std::uint32_t>();
   if (version == 0 || version > k_chunked_version)
-    throw_unsupported(buffer.source,
+    throw_unsupported(buffer_.source,
                       "the file has version " + std::to_string(version) + " of the container, this program reads up to " + std::to_string(k_chunked_version),
                       "read the file with a newer version of sterna");
   if (head.take<std::uint32_t>() != k_byte_order_mark) head.fail("found another byte order, expected little endian");
@@ -164,16 +164,16 @@ ChunkedReader::ChunkedReader(const FileBuffer& buffer) : buffer_(buffer) {
              file_bytes = head.take<std::uint64_t>();
   const auto head_hash = head.take<std::uint64_t>();
   if (!is_intact(text.substr(0, k_hashed_head_bytes), head_hash))
-    throw_malformed(buffer.source, "byte 0", "the head is damaged: its hash does not match", "copy or write the file again");
+    throw_malformed(buffer_.source, "byte 0", "the head is damaged: its hash does not match", "copy or write the file again");
   if (file_bytes != text.size())
-    throw_malformed(buffer.source, "byte 48", "found " + std::to_string(text.size()) + " bytes in the file, expected " + std::to_string(file_bytes),
+    throw_malformed(buffer_.source, "byte 48", "found " + std::to_string(text.size()) + " bytes in the file, expected " + std::to_string(file_bytes),
                     "the file may have been cut short: copy or write it again");
   if (location < k_head_bytes || location > text.size() || n_bytes != text.size() - location)
     throw_malformed(
-        buffer.source, "byte 24",
+        buffer_.source, "byte 24",
         "found the directory at byte " + std::to_string(location) + " with " + std::to_string(n_bytes) + " bytes, expected it to end with the file");
   if (!is_intact(text.substr(location), hash))
-    throw_malformed(buffer.source, "byte " + std::to_string(location), "the directory is damaged: its hash does not match", "copy or write the file again");
+    throw_malformed(buffer_.source, "byte " + std::to_string(location), "the directory is damaged: its hash does not match", "copy or write the file again");
   read_directory(location, text.size());
 }
 

@@ -8,6 +8,7 @@
 #include <string_view>
 #include <vector>
 
+#include "geom/base/borrowed.h"
 #include "geom/base/run_context.h"
 #include "io/input/file_buffer.h"
 #include "io/output/atomic_file.h"
@@ -32,8 +33,8 @@ using FillValues = std::function<void(std::uint64_t begin, std::uint64_t end, ch
 class ChunkedWriter {
  public:
   /// Begins the file with room for the header.
-  /// \pre `file` is empty and outlives the writer
-  explicit ChunkedWriter(AtomicFile& file);
+  /// \pre `file` is empty
+  explicit ChunkedWriter(Borrowed<AtomicFile> file);
 
   /// Adds an array. `n_values` counts all components.
   void add(std::string_view name, NumberType type, std::uint32_t n_components, std::uint64_t n_values, const FillValues& fill, const RunContext& context);
@@ -70,9 +71,8 @@ struct StoredArray {
 /// Reader of a chunked file. The directory is checked at construction; arrays are unpacked on request.
 class ChunkedReader {
  public:
-  /// \pre `buffer` outlives the reader.
   /// \throws Error file_malformed, unsupported_format
-  explicit ChunkedReader(const FileBuffer& buffer);
+  explicit ChunkedReader(Borrowed<const FileBuffer> buffer);
 
   bool has(std::string_view name) const { return arrays_.find(name) != arrays_.end(); }
   /// Unpacks all values in parallel into `to`.

@@ -246,6 +246,6 @@ class FfaParser {
   int version_ = 1;  ///< 0 = text
 };
 
-FfaNode parse_ffa(const FileBuffer& buffer) { return FfaParser(buffer).parse(); }
+FfaNode parse_ffa(Borrowed<const FileBuffer> buffer) { return FfaParser(buffer).parse(); }
 
 }  // namespace sterna::io

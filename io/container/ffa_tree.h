@@ -8,11 +8,12 @@
 #include <string_view>
 #include <vector>
 
+#include "geom/base/borrowed.h"
 #include "io/input/file_buffer.h"
 
 namespace sterna::io {
 
-/// A node of an FFA tree. Values are decoded on access; the FileBuffer must outlive the node.
+/// A node of an FFA tree. Values are decoded on access.
 class FfaNode {
  public:
   std::string name;
@@ -60,7 +61,7 @@ class FfaNode {
 
 /// Reads the tree; binary version or text is detected from the content.
 /// \throws Error file_malformed, unsupported_format (records of 2 GiB and more in version 1)
-FfaNode parse_ffa(const FileBuffer& buffer);
+FfaNode parse_ffa(Borrowed<const FileBuffer> buffer);
 
 /// Returns the number of bytes of one value of type `type`.
 std::size_t ffa_value_size(char type);

@@ -3,6 +3,7 @@
 #include <hdf5.h>
 
 #include <algorithm>
+#include <cstddef>
 #include <type_traits>
 
 namespace sterna::io {
@@ -17,6 +18,9 @@ struct OpenFile {
   haddr_t allocated = 0;  ///< end of the space that the library has allocated
   haddr_t end = 0;        ///< end of the written bytes
 };
+
+/// The library passes the address of `library`, which is that of the whole object.
+static_assert(std::is_standard_layout_v<OpenFile> && offsetof(OpenFile, library) == 0);
 
 OpenFile& of(const H5FD_t* file) { return *reinterpret_cast<OpenFile*>(const_cast<H5FD_t*>(file)); }
 
@@ -91,7 +95,7 @@ const H5FD_class_t& driver_class() {
 
 }  // namespace
 
-Hdf5Driver::Hdf5Driver(AtomicFile& file) : file_(file), id_(H5FDregister(&driver_class())) {}
+Hdf5Driver::Hdf5Driver(Borrowed<AtomicFile> file) : file_(file), id_(H5FDregister(&driver_class())) {}
 
 Hdf5Driver::~Hdf5Driver() {
   if (id_ >= 0) H5FDunregister(id_);

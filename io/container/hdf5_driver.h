@@ -4,6 +4,7 @@
 #include <cstdint>
 #include <exception>
 
+#include "geom/base/borrowed.h"
 #include "io/output/atomic_file.h"
 
 namespace sterna::io {
@@ -12,8 +13,8 @@ namespace sterna::io {
 /// write the data needed to close a file, for example on a full disk.
 class Hdf5Driver {
  public:
-  /// \pre `file` outlives the driver, which outlives the library's file
-  explicit Hdf5Driver(AtomicFile& file);
+  /// \pre the driver outlives the library's file
+  explicit Hdf5Driver(Borrowed<AtomicFile> file);
   ~Hdf5Driver();
   Hdf5Driver(const Hdf5Driver&) = delete;
   Hdf5Driver& operator=(const Hdf5Driver&) = delete;

@@ -23,9 +23,9 @@ struct SmallGrid {
     marker.push_back(mark);
   }
 
-  /// Returns the grid as a document.
-  /// \pre the grid outlives the document
-  VtuDocument document(std::string marker_name) const {
+  /// Returns the grid as a document that refers to it.
+  VtuDocument document(std::string marker_name) const&& = delete;
+  VtuDocument document(std::string marker_name) const& {
     VtuDocument result;
     result.n_points = points->size();
     result.n_cells = types.size();

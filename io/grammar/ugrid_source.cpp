@@ -40,7 +40,7 @@ UgridVariant ugrid_variant(const std::filesystem::path& path) {
   return {.is_text = true};
 }
 
-UgridSource::UgridSource(const FileBuffer& buffer, const UgridVariant& variant) : variant_(variant) {
+UgridSource::UgridSource(Borrowed<const FileBuffer> buffer, const UgridVariant& variant) : variant_(variant) {
   if (variant.is_text) text_.emplace(buffer);
   else bytes_.emplace(buffer, variant.order);
 }

@@ -10,6 +10,7 @@
 #include <string>
 #include <string_view>
 
+#include "geom/base/borrowed.h"
 #include "geom/base/run_context.h"
 #include "geom/base/vec3.h"
 #include "geom/mesh/tri_mesh.h"
@@ -33,8 +34,7 @@ UgridVariant ugrid_variant(const std::filesystem::path& path);
 /// Reads the numbers of a file sequentially. Members with `expected` throw Error(file_malformed) with line or byte offset.
 class UgridSource {
  public:
-  /// \pre `buffer` outlives the source
-  UgridSource(const FileBuffer& buffer, const UgridVariant& variant);
+  UgridSource(Borrowed<const FileBuffer> buffer, const UgridVariant& variant);
 
   /// Checks that the file has enough bytes left for n items of so many integers or reals each, so that memory allocated for them is justified.
   void require_integers(std::uint64_t n, std::size_t per_item, std::string_view expected) const { require(n, per_item * integer_bytes(), expected); }

@@ -124,16 +124,16 @@ std::size_t VtuValues::size_of(Type type) {
   return 1;
 }
 
-VtuDecoder::VtuDecoder(const FileBuffer& buffer, const std::vector<XmlTag>& tags, const RunContext& context) : buffer_(buffer), context_(context) {
+VtuDecoder::VtuDecoder(Borrowed<const FileBuffer> buffer, const std::vector<XmlTag>& tags, const RunContext& context) : buffer_(buffer), context_(context) {
   for (const XmlTag& tag : tags) {
     if (tag.name == "VTKFile") {
       const std::string_view compressor = tag.attribute("compressor");
       if (compressor == "vtkZLibDataCompressor") packing_ = Packing::zlib;
       else if (compressor == "vtkLZ4DataCompressor") packing_ = Packing::lz4;
       else if (!compressor.empty())
-        throw_unsupported(buffer.source, "the arrays are compressed with " + std::string(compressor), "write the file with LZ4, zlib or without compression");
+        throw_unsupported(buffer->source, "the arrays are compressed with " + std::string(compressor), "write the file with LZ4, zlib or without compression");
       if (tag.attribute("byte_order", "LittleEndian") != "LittleEndian")
-        throw_unsupported(buffer.source, "the byte order is " + std::string(tag.attribute("byte_order")), "write the file as LittleEndian");
+        throw_unsupported(buffer->source, "the byte order is " + std::string(tag.attribute("byte_order")), "write the file as LittleEndian");
       word_size_ = tag.attribute("header_type", "UInt32") == "UInt64" ? 8 : 4;
     } else if (tag.name == "DataArray" && tag.attribute("format") == "appended") {
       if (const auto offset = to_number(tag.attribute("offset"))) offsets_.push_back(*offset);

@@ -7,6 +7,7 @@
 #include <string_view>
 #include <vector>
 
+#include "geom/base/borrowed.h"
 #include "geom/base/run_context.h"
 #include "io/input/file_buffer.h"
 #include "io/input/xml_tags.h"
@@ -63,8 +64,8 @@ class VtuValues {
 /// \throws Error file_malformed, unsupported_format.
 class VtuDecoder {
  public:
-  /// \param tags all tags of the file; the last is AppendedData if there is such a section. `buffer` and `tags` must outlive the decoder.
-  VtuDecoder(const FileBuffer& buffer, const std::vector<XmlTag>& tags, const RunContext& context);
+  /// \param tags all tags of the file; the last is AppendedData if there is such a section.
+  VtuDecoder(Borrowed<const FileBuffer> buffer, const std::vector<XmlTag>& tags, const RunContext& context);
   VtuValues decode(const XmlTag& data_array) const;
 
  private:

@@ -158,7 +158,8 @@ VtuPacking vtu_packing(const std::filesystem::path& path) {
   return name.ends_with(".lz4.vtu") ? VtuPacking::lz4 : VtuPacking::zlib;
 }
 
-VtuArray vtu_array(std::string name, const std::vector<std::int32_t>& values) {
+VtuArray vtu_array(std::string name, Borrowed<const std::vector<std::int32_t>> borrowed) {
+  const std::vector<std::int32_t>& values = borrowed;
   return {.name = std::move(name), .type = VtuType::int32, .n_values = values.size(), .fill = [&values](std::uint64_t begin, std::uint64_t end, char* out) {
             std::memcpy(out, values.data() + begin, (end - begin) * sizeof(values[0]));
           }};

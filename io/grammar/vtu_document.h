@@ -9,6 +9,7 @@
 #include <utility>
 #include <vector>
 
+#include "geom/base/borrowed.h"
 #include "geom/base/run_context.h"
 
 namespace sterna::io {
@@ -45,8 +46,8 @@ struct VtuDocument {
   VtuPacking packing = VtuPacking::zlib;
 };
 
-/// Returns an array over values, which must outlive the document.
-VtuArray vtu_array(std::string name, const std::vector<std::int32_t>& values);
+/// Returns an array over values.
+VtuArray vtu_array(std::string name, Borrowed<const std::vector<std::int32_t>> values);
 
 /// Writes binary appended data, compressed as specified in the document (zlib: level k_zlib_level), little endian, UInt64 headers. The bytes do not depend on
 /// the number of threads.

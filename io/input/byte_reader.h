@@ -12,6 +12,7 @@
 #include <string_view>
 #include <type_traits>
 
+#include "geom/base/borrowed.h"
 #include "io/input/file_buffer.h"
 
 namespace sterna::io {
@@ -19,9 +20,8 @@ namespace sterna::io {
 /// Functions with `expected` throw Error(file_malformed) with the byte offset, the value found and the expectation.
 class ByteReader {
  public:
-  /// \pre `buffer` outlives the reader.
-  explicit ByteReader(const FileBuffer& buffer, std::endian order = std::endian::little, std::size_t offset = 0)
-      : bytes_(buffer.text()), source_(buffer.source), order_(order), position_(std::min(offset, buffer.bytes.size())) {}
+  explicit ByteReader(Borrowed<const FileBuffer> buffer, std::endian order = std::endian::little, std::size_t offset = 0)
+      : bytes_(buffer->text()), source_(buffer->source), order_(order), position_(std::min(offset, buffer->bytes.size())) {}
 
   std::size_t offset() const { return position_; }
   std::size_t remaining() const { return bytes_.size() - position_; }

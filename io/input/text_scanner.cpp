@@ -32,7 +32,7 @@ bool equal_ignoring_case(std::string_view a, std::string_view b) {
   return a.size() == b.size() && std::equal(a.begin(), a.end(), b.begin(), [](char x, char y) { return lower(x) == lower(y); });
 }
 
-TextScanner::TextScanner(const FileBuffer& buffer, Rules rules) : text_(buffer.text()), source_(buffer.source), rules_(rules) {
+TextScanner::TextScanner(Borrowed<const FileBuffer> buffer, Rules rules) : text_(buffer->text()), source_(buffer->source), rules_(rules) {
   if (text_.starts_with("\xEF\xBB\xBF")) position_ = token_begin_ = 3;
 }
 

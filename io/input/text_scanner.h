@@ -6,6 +6,7 @@
 #include <string>
 #include <string_view>
 
+#include "geom/base/borrowed.h"
 #include "io/input/file_buffer.h"
 
 namespace sterna::io {
@@ -19,9 +20,8 @@ class TextScanner {
     char continuation = '\0';  ///< before a line end: the line continues; '\0' = none
     bool line_bound = false;   ///< token(), real(), integer() never cross a line end
   };
-  explicit TextScanner(const FileBuffer& buffer) : TextScanner(buffer, Rules{}) {}
-  /// \pre `buffer` outlives the scanner.
-  TextScanner(const FileBuffer& buffer, Rules rules);
+  explicit TextScanner(Borrowed<const FileBuffer> buffer) : TextScanner(buffer, Rules{}) {}
+  TextScanner(Borrowed<const FileBuffer> buffer, Rules rules);
 
   void set_line_bound(bool value) { rules_.line_bound = value; }
 

@@ -29,7 +29,8 @@ void sort_by_patch(const std::vector<Face>& faces, std::size_t n_patches, std::s
 
 }  // namespace
 
-CellSections::CellSections(const HybridMesh& mesh) : mesh_(&mesh) {
+CellSections::CellSections(Borrowed<const HybridMesh> of) : mesh_(&of.get()) {
+  const HybridMesh& mesh = of;
   const LayerBlock& layers = mesh.layers;
   for (std::size_t c = 0; c < layers.n_columns() && all_columns_are_prisms_; ++c) all_columns_are_prisms_ = layers.is_prismatic(c);
   if (all_columns_are_prisms_) {

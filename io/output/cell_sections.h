@@ -6,6 +6,7 @@
 #include <span>
 #include <vector>
 
+#include "geom/base/borrowed.h"
 #include "geom/mesh/hybrid_mesh.h"
 #include "io/output/layer_numbers.h"
 
@@ -14,11 +15,11 @@ namespace sterna::io {
 /// Order of cell kinds in files: prisms first (the layers before the rest), tetrahedra last.
 inline constexpr std::array<CellKind, 4> k_kinds_in_file = {CellKind::prism, CellKind::pyramid, CellKind::hexahedron, CellKind::tetrahedron};
 
-/// View of a mesh, which must outlive the view. The cells of one kind are first those of the columns (column by column, layer by layer), then the explicit
-/// cells. A mesh of columns and its explicit_cells() thus have the same sequence.
+/// View of a mesh. The cells of one kind are first those of the columns (column by column, layer by layer), then the explicit cells. A mesh of columns and its
+/// explicit_cells() thus have the same sequence.
 class CellSections {
  public:
-  explicit CellSections(const HybridMesh& mesh);
+  explicit CellSections(Borrowed<const HybridMesh> mesh);
 
   std::uint64_t count(CellKind kind) const;
   std::uint64_t total() const;

@@ -44,7 +44,7 @@ std::string location_of(const HybridMesh& mesh, const CellFace& face) {
 
 }  // namespace
 
-MeshFaces::MeshFaces(const HybridMesh& mesh, const RunContext& context) : mesh_(&mesh) {
+MeshFaces::MeshFaces(Borrowed<const HybridMesh> mesh, const RunContext& context) : mesh_(&mesh.get()) {
   number_cells();
   pair_sides();
   match_loose_faces(context);

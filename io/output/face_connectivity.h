@@ -8,6 +8,7 @@
 #include <span>
 #include <vector>
 
+#include "geom/base/borrowed.h"
 #include "geom/base/run_context.h"
 #include "geom/mesh/hybrid_mesh.h"
 #include "geom/mesh/numbering.h"
@@ -23,10 +24,9 @@ struct CellFace {
   std::span<const NodeId> span() const { return {nodes.data(), size}; }
 };
 
-/// Faces of a mesh, which must outlive this object. Cells are numbered as in for_each_cell(): column by column, layer by layer, then prisms, pyramids,
-/// hexahedra, tetrahedra. order_cells() changes these numbers. Inside the columns neighbours follow from the numbering; only the other faces are matched
-/// through a table: 12 bytes per face and 4 per node (0.7 GB for 25 M nodes, 45 M prisms, 17 M tetrahedra). Based on: counting sort of faces by their lowest
-/// node.
+/// Faces of a mesh. Cells are numbered as in for_each_cell(): column by column, layer by layer, then prisms, pyramids, hexahedra, tetrahedra. order_cells()
+/// changes these numbers. Inside the columns neighbours follow from the numbering; only the other faces are matched through a table: 12 bytes per face and 4
+/// per node (0.7 GB for 25 M nodes, 45 M prisms, 17 M tetrahedra). Based on: counting sort of faces by their lowest node.
 class MeshFaces {
  public:
   static constexpr std::uint32_t k_boundary = std::numeric_limits<std::uint32_t>::max();
@@ -35,7 +35,7 @@ class MeshFaces {
   /// Matches the faces. Parallel, same result for any number of threads.
   /// \throws Error mesh_invalid for a face of only one cell that is not a boundary face, a face of three cells, a boundary face without a cell, or a node that
   /// does not exist; overflow for more than 2^32 - 2 cells or unmatched faces; cancelled
-  MeshFaces(const HybridMesh& mesh, const RunContext& context);
+  MeshFaces(Borrowed<const HybridMesh> mesh, const RunContext& context);
 
   std::uint64_t n_cells() const { return n_column_cells_ + n_explicit_; }
   std::uint64_t n_column_cells() const { return n_column_cells_; }  ///< the first cells of for_each_cell()

@@ -1,6 +1,9 @@
 #include <algorithm>
+#include <array>
+#include <bit>
 #include <cmath>
 #include <limits>
+#include <type_traits>
 
 #include "geom/base/error.h"
 #include "io/container/chunked_file.h"
@@ -44,6 +47,7 @@ class PartReader {
   /// Reads all values of an array with n_components per `Item`. Fails if the array is missing.
   template <class Item>
   std::vector<Item> items(std::string_view name, NumberType type, std::uint32_t n_components) const {
+    static_assert(std::is_standard_layout_v<Item> && std::is_trivially_copyable_v<Item>);  // it is filled with bytes of the file
     if (!has(name)) fail(name, "is missing");
     const StoredArray& array = at(name);
     if (array.type != type || array.n_components != n_components)
@@ -76,10 +80,14 @@ class PartReader {
 
   template <class Ids>
   void require_below(std::string_view name, const std::vector<Ids>& values, std::uint64_t limit) const {
-    const auto* const numbers = reinterpret_cast<const std::uint32_t*>(values.data());
-    const std::size_t n = values.size() * (sizeof(Ids) / sizeof(std::uint32_t));
-    for (std::size_t i = 0; i < n; ++i)
-      if (numbers[i] >= limit) fail(name, "value " + std::to_string(i) + " is " + std::to_string(numbers[i]) + ", expected below " + std::to_string(limit));
+    constexpr std::size_t k_per_item = sizeof(Ids) / sizeof(std::uint32_t);
+    static_assert(sizeof(Ids) == k_per_item * sizeof(std::uint32_t));
+    for (std::size_t i = 0; i < values.size(); ++i) {
+      const auto numbers = std::bit_cast<std::array<std::uint32_t, k_per_item>>(values[i]);
+      for (std::size_t k = 0; k < k_per_item; ++k)
+        if (numbers[k] >= limit)
+          fail(name, "value " + std::to_string(k_per_item * i + k) + " is " + std::to_string(numbers[k]) + ", expected below " + std::to_string(limit));
+    }
   }
 
   template <std::size_t N>

@@ -302,7 +302,7 @@ struct ModelDistance::Lookup {
   Probe probe;
 };
 
-ModelDistance::ModelDistance(const TriMesh& wall, const ModelWall& model, const RunContext& context)
+ModelDistance::ModelDistance(Borrowed<const TriMesh> wall, Borrowed<const ModelWall> model, const RunContext& context)
     : lookup_(std::make_unique<const Lookup>(Lookup{Probe(wall, model, body_length(wall), context)})) {}
 ModelDistance::~ModelDistance() = default;
 

@@ -7,6 +7,7 @@
 #include <string>
 #include <vector>
 
+#include "geom/base/borrowed.h"
 #include "geom/base/run_context.h"
 #include "geom/mesh/gates.h"
 #include "geom/mesh/hybrid_mesh.h"
@@ -36,9 +37,8 @@ Deviation measure_deviation(const TriMesh& surface, const TriMesh& wall, const M
 /// Thread-safe.
 class ModelDistance {
  public:
-  /// All arguments must outlive the object.
   /// \pre the same as for measure_deviation
-  ModelDistance(const TriMesh& wall, const ModelWall& model, const RunContext& context);
+  ModelDistance(Borrowed<const TriMesh> wall, Borrowed<const ModelWall> model, const RunContext& context);
   ~ModelDistance();
   double operator()(const Point& p) const;            ///< returns the distance in metres
   TriangleId nearest_triangle(const Point& p) const;  ///< returns the nearest triangle of the wall

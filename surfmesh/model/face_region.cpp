@@ -22,7 +22,8 @@ bool crosses(Uv a, Uv b, Uv at) { return (a.u <= at.u) != (b.u <= at.u) && a.v +
 
 }  // namespace
 
-FaceRegion::FaceRegion(const Model& model, FaceId face) : model_(&model), outline_(outline_of(model, face)) {
+FaceRegion::FaceRegion(Borrowed<const Model> of, FaceId face) : model_(&of.get()), outline_(outline_of(of, face)) {
+  const Model& model = of;
   const Surface& surface = *model.faces[face].surface;
   const ParameterBox domain = surface.domain();
   period_ = {surface.is_periodic_u() ? domain.u.length() : 0.0, surface.is_periodic_v() ? domain.v.length() : 0.0};

@@ -3,14 +3,14 @@
 
 #include <vector>
 
+#include "geom/base/borrowed.h"
 #include "surfmesh/model/face_outline.h"
 
 namespace sterna::surfmesh {
 
 class FaceRegion {
  public:
-  /// `model` must outlive the region.
-  FaceRegion(const Model& model, FaceId face);
+  FaceRegion(Borrowed<const Model> model, FaceId face);
 
   /// Returns true if the point belongs to the face. On a periodic surface any period is accepted. Near the border the test uses the parameter curves, not their
   /// polygons.

@@ -132,26 +132,37 @@ std::optional<Seam> find_seam(const std::vector<Loop>& loops, const Loop& first,
   return std::nullopt;
 }
 
-}  // namespace
-
-void add_own_seam(const Surface& surface, const std::function<double(Uv, const Point&)>& size, LabelledBorder& labelled) {
+/// Returns the loops of a border, each with the periods around which it runs.
+std::vector<Loop> border_loops(const Surface& surface, const LabelledBorder& labelled) {
+  const ParameterBox domain = surface.domain();
   std::vector<Loop> loops;
-  std::vector<std::size_t> around;
   std::size_t n = 0;
   for (std::size_t l = 0; l < labelled.border.loops.size(); ++l) {
     Loop loop{labelled.border.loops[l], {}, {}, {}};
     const Uv open = labelled.loop_ends[l] - loop.points.front().uv;
-    const ParameterBox domain = surface.domain();
     if (surface.is_periodic_u()) loop.around.u = std::round(open.u / domain.u.length()) * domain.u.length();
     if (surface.is_periodic_v()) loop.around.v = std::round(open.v / domain.v.length()) * domain.v.length();
     for (std::size_t i = 0; i < loop.points.size(); ++i, ++n) {
       loop.ids.push_back(labelled.ids[n]);
       loop.edges.push_back(labelled.edges[n]);
     }
-    if (!(loop.around == Uv{})) around.push_back(l);
     loops.push_back(std::move(loop));
   }
-  if (around.empty()) return;
+  return loops;
+}
+
+/// The loops that run around the period of the surface: one, if the face contains a pole, or two.
+struct LoopsAround {
+  const Loop& first;
+  const Loop* second;  ///< null: there is none
+  Uv period;
+  double pole;  ///< parameter of the pole, or of the end of the surface on the left of the first loop
+
+  bool is_along_u() const { return period.u != 0.0; }
+};
+
+/// \param around numbers of the loops that run around the period
+LoopsAround loops_around(const Surface& surface, const std::vector<Loop>& loops, const std::vector<std::size_t>& around) {
   const Loop& first = loops[around[0]];
   const Loop* second = around.size() > 1 ? &loops[around[1]] : nullptr;
   const Uv period = first.around;
@@ -163,58 +174,85 @@ void add_own_seam(const Surface& surface, const std::function<double(Uv, const P
   // The face lies to the left of the loop: at greater v of a loop along +u, at smaller u of a loop along +v.
   const ParameterBox domain = surface.domain();
   const double pole = period.u != 0.0 ? (period.u > 0.0 ? domain.v.to : domain.v.from) : (period.v > 0.0 ? domain.u.from : domain.u.to);
-  if (second == nullptr) {
-    const SurfaceDerivatives d = surface.derivatives(period.u != 0.0 ? Uv{first.points.front().uv.u, pole} : Uv{pole, first.points.front().uv.v});
-    const double along = period.u != 0.0 ? norm(d.du) : norm(d.dv), across = period.u != 0.0 ? norm(d.dv) : norm(d.du);
-    if (!(along <= k_pole_speed * across))
-      fail(surface, "one border runs around the period of the surface, and the surface has no pole on the left of the border", location);
-  }
-  const std::optional<Seam> seam = find_seam(loops, first, second, pole, period);
-  if (!seam) fail(surface, "no straight line in (u, v) joins the two borders that run around the period of the surface", location);
+  return {first, second, period, pole};
+}
 
-  Loop joined = unrolled(first, seam->start, {});
-  LabelledBorder result;
-  const std::vector<Uv> cuts = cut_seam(surface, size, seam->from, seam->to);
+/// \throws Error if a single loop has no pole on its left
+void require_pole(const Surface& surface, const LoopsAround& loops) {
+  if (loops.second != nullptr) return;
+  const BorderPoint& start = loops.first.points.front();
+  const SurfaceDerivatives d = surface.derivatives(loops.is_along_u() ? Uv{start.uv.u, loops.pole} : Uv{loops.pole, start.uv.v});
+  const double along = loops.is_along_u() ? norm(d.du) : norm(d.dv), across = loops.is_along_u() ? norm(d.dv) : norm(d.du);
+  if (!(along <= k_pole_speed * across))
+    fail(surface, "one border runs around the period of the surface, and the surface has no pole on the left of the border", start.point);
+}
+
+/// Returns the loop along the first loop, the seam, the second loop or the pole, and the seam backwards. Adds the pairs of points on the seam to `pairs`.
+Loop joined_loop(const Surface& surface, const LoopsAround& loops, const Seam& seam, const std::vector<Uv>& cuts,
+                 std::vector<std::pair<std::uint32_t, std::uint32_t>>& pairs) {
+  Loop joined = unrolled(loops.first, seam.start, {});
   const auto add_free = [&](Uv uv, Uv at) {
     joined.points.push_back({uv, surface.point(at)});
     joined.ids.push_back({});
     joined.edges.push_back({});
   };
   const auto n_first = static_cast<std::uint32_t>(joined.points.size());
-  for (const Uv& at : cuts) add_free(at + period, at);
+  for (const Uv& at : cuts) add_free(at + loops.period, at);
   auto back = static_cast<std::uint32_t>(joined.points.size());
-  if (second != nullptr) {
-    const Loop other = unrolled(*second, seam->other_start, seam->to - second->points[seam->other_start].uv + period);
+  if (loops.second != nullptr) {
+    const Loop other = unrolled(*loops.second, seam.other_start, seam.to - loops.second->points[seam.other_start].uv + loops.period);
     joined.points.insert(joined.points.end(), other.points.begin(), other.points.end());
     joined.ids.insert(joined.ids.end(), other.ids.begin(), other.ids.end());
     joined.edges.insert(joined.edges.end(), other.edges.begin(), other.edges.end());
     back = static_cast<std::uint32_t>(joined.points.size());
   } else {
-    add_free(seam->to + period, seam->to);
-    add_free(seam->to, seam->to);
-    result.seam.push_back({back, back + 1});
+    add_free(seam.to + loops.period, seam.to);
+    add_free(seam.to, seam.to);
+    pairs.emplace_back(back, back + 1);
     back += 2;
   }
   for (std::size_t k = cuts.size(); k-- > 0;) add_free(cuts[k], cuts[k]);
-  for (std::uint32_t k = 0; k < cuts.size(); ++k) result.seam.push_back({n_first + k, back + static_cast<std::uint32_t>(cuts.size()) - 1 - k});
+  for (std::uint32_t k = 0; k < cuts.size(); ++k) pairs.emplace_back(n_first + k, back + static_cast<std::uint32_t>(cuts.size()) - 1 - k);
+  return joined;
+}
 
-  const auto add_loop = [&](Loop& loop) {
-    result.loop_ends.push_back(loop.points.front().uv);
-    result.ids.insert(result.ids.end(), loop.ids.begin(), loop.ids.end());
-    result.edges.insert(result.edges.end(), loop.edges.begin(), loop.edges.end());
-    result.border.loops.push_back(std::move(loop.points));
-  };
+/// Moves a loop by whole periods into the outer loop.
+void move_into(const std::vector<BorderPoint>& outer, Uv period, Loop& loop) {
+  for (const int k : {0, 1, -1, 2, -2}) {
+    const Uv shift = static_cast<double>(k) * period;
+    if (!is_inside(outer, loop.points.front().uv + shift)) continue;
+    for (BorderPoint& p : loop.points) p.uv = p.uv + shift;
+    break;
+  }
+}
+
+void append_loop(Loop loop, LabelledBorder& labelled) {
+  labelled.loop_ends.push_back(loop.points.front().uv);
+  labelled.ids.insert(labelled.ids.end(), loop.ids.begin(), loop.ids.end());
+  labelled.edges.insert(labelled.edges.end(), loop.edges.begin(), loop.edges.end());
+  labelled.border.loops.push_back(std::move(loop.points));
+}
+
+}  // namespace
+
+void add_own_seam(const Surface& surface, const std::function<double(Uv, const Point&)>& size, LabelledBorder& labelled) {
+  std::vector<Loop> loops = border_loops(surface, labelled);
+  std::vector<std::size_t> around;
+  for (std::size_t l = 0; l < loops.size(); ++l)
+    if (!(loops[l].around == Uv{})) around.push_back(l);
+  if (around.empty()) return;
+  const LoopsAround joining = loops_around(surface, loops, around);
+  require_pole(surface, joining);
+  const std::optional<Seam> seam = find_seam(loops, joining.first, joining.second, joining.pole, joining.period);
+  if (!seam) fail(surface, "no straight line in (u, v) joins the two borders that run around the period of the surface", joining.first.points.front().point);
+  LabelledBorder result;
+  Loop joined = joined_loop(surface, joining, *seam, cut_seam(surface, size, seam->from, seam->to), result.seam);
   const std::vector<BorderPoint> outer = joined.points;
-  add_loop(joined);
+  append_loop(std::move(joined), result);
   for (std::size_t l = 0; l < loops.size(); ++l) {
     if (std::find(around.begin(), around.end(), l) != around.end()) continue;
-    for (const int k : {0, 1, -1, 2, -2}) {
-      const Uv shift = static_cast<double>(k) * period;
-      if (!is_inside(outer, loops[l].points.front().uv + shift)) continue;
-      for (BorderPoint& p : loops[l].points) p.uv = p.uv + shift;
-      break;
-    }
-    add_loop(loops[l]);
+    move_into(outer, joining.period, loops[l]);
+    append_loop(std::move(loops[l]), result);
   }
   labelled = std::move(result);
 }

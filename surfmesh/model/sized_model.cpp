@@ -5,8 +5,10 @@
 
 namespace sterna::surfmesh {
 
-SizedModel sized_model(const Model& model, const SurfaceMeshOptions& options, std::span<const PatchSurfaceOptions> patches, const SpaceSizes& requested,
-                       const RunContext& context) {
+SizedModel sized_model(Borrowed<const Model> of, Borrowed<const SurfaceMeshOptions> given, std::span<const PatchSurfaceOptions> patches,
+                       const SpaceSizes& requested, const RunContext& context) {
+  const Model& model = of;
+  const SurfaceMeshOptions& options = given;
   SizedModel sized{model, options, sample_edges(model, context), {}, {}};
   sized.sizes = sizes_of_faces(model, sized.edges, options, patches, context);
   add_local_sizes(model, sized.edges, options, requested, sized.sizes);

@@ -3,6 +3,7 @@
 
 #include <span>
 
+#include "geom/base/borrowed.h"
 #include "surfmesh/model/model_sizes.h"
 #include "surfmesh/model/wing_bands.h"
 
@@ -17,10 +18,9 @@ struct SizedModel {
 };
 
 /// Samples the edges and computes the sizes required by options, curvature and locations.
-/// \pre `model` and `options` outlive the result
 /// \throws Error(bad_argument) for patch rules that match no patch, and for chord errors out of reach
-SizedModel sized_model(const Model& model, const SurfaceMeshOptions& options, std::span<const PatchSurfaceOptions> patches, const SpaceSizes& requested,
-                       const RunContext& context);
+SizedModel sized_model(Borrowed<const Model> model, Borrowed<const SurfaceMeshOptions> options, std::span<const PatchSurfaceOptions> patches,
+                       const SpaceSizes& requested, const RunContext& context);
 
 /// Adds the sizes of narrow regions and, if requested, of gaps.
 /// \pre small parts have been absorbed

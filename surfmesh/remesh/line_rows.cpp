@@ -149,78 +149,104 @@ double width_across(const Reference& r, HalfedgeId h, double most) {
   return std::min(length, most);
 }
 
+namespace {
+
+/// Returns true if the line lies between two triangles that are both re-meshed, all along.
+bool is_free(const Reference& r, const FeatureLine& line) {
+  return std::ranges::all_of(line.halfedges, [&](HalfedgeId h) {
+    const HalfedgeId o = r.topology.twin(h);
+    return o.is_valid() && r.is_kept[triangle_of(h)] == 0 && r.is_kept[triangle_of(o)] == 0;
+  });
+}
+
+/// A line that is an edge of a wing.
+struct WingLine {
+  BandKind kind;
+  std::optional<std::size_t> base;  ///< side of the line that is a narrow base, which gets no rows
+  double nose_radius = 0.0;         ///< m; 0 if the line is no nose
+};
+
+/// Classifies a line as a leading or trailing edge; nothing if it is neither.
+std::optional<WingLine> wing_line_of(const Reference& r, std::int32_t number, const LineShape& shape) {
+  const FeatureLine& line = r.lines[static_cast<std::size_t>(number)];
+  const double width = std::min(shape.width[0], shape.width[1]);
+  if (shape.n_sharp >= k_agreeing && std::abs(shape.looks) > k_looks_along) return WingLine{.kind = shape.looks > 0.0 ? BandKind::trailing : BandKind::leading};
+  if ((line.is_nose ? is_ahead(r, line) : shape.n_convex >= k_agreeing && shape.looks < -k_looks_along) && line.length() > k_nose_length * width &&
+      std::max(shape.width[0], shape.width[1]) < k_alike_width * width) {
+    const double radius = radius_across(r, number, k_nose_probe * width);
+    if (radius <= k_nose_radius * width) return WingLine{.kind = BandKind::leading, .nose_radius = radius};
+    return std::nullopt;
+  }
+  if (shape.n_corner < k_agreeing) return std::nullopt;
+  const std::optional<std::size_t> base = base_side(shape, line.length());
+  return base ? std::optional(WingLine{.kind = BandKind::trailing, .base = base}) : std::nullopt;
+}
+
+/// Returns the rows on both sides of a line. \p requests rows requested on each patch
+LineRows rows_of(const Reference& r, std::int32_t number, const LineShape& shape, const WingLine& wing_line, const SurfaceLimitTable& limits_of,
+                 const std::vector<BandTargets>& requests) {
+  const FeatureLine& line = r.lines[static_cast<std::size_t>(number)];
+  LineRows rows{.line = number, .sides = {}, .longest = std::numeric_limits<double>::infinity()};
+  HalfedgeId left = line.halfedges.front();
+  if (r.topology.from(left) != line.vertices.front()) left = r.topology.twin(left);
+  const std::array<TriangleId, 2> beside{triangle_of(left), triangle_of(r.topology.twin(left))};
+  for (std::size_t i = 0; i < 2; ++i) {
+    if (wing_line.base == i) continue;
+    const BandTargets& target = requests[r.mesh->triangle_patch[beside[i]].index()];
+    const BandTarget& band = wing_line.kind == BandKind::leading ? target.leading : target.trailing;
+    if (!band.is_any()) continue;
+    const SurfaceLimits& limits = limits_of.of(beside[i]);
+    rows.sides[i] = {true, std::min(limits.max_edge, band.first_height(limits.max_edge)), band.growth, limits.curvature_angle, limits.min_edge};
+    rows.longest = std::min(rows.longest, band.longest(limits.max_edge));
+    // All rows of one side must fit into their fraction of its width.
+    const double room = k_share_of_chord * shape.width[i];
+    rows.longest =
+        std::min(rows.longest, std::max(rows.sides[i].first, (room * (band.growth - 1.0) + rows.sides[i].first) / (k_isotropic_height * band.growth)));
+  }
+  if (wing_line.nose_radius > 0.0) {
+    rows.is_nose = true;
+    rows.at_ends = rows.longest;
+    for (const SideRows& side : rows.sides)
+      if (side.is_any) rows.at_ends = std::min(rows.at_ends, std::max(side.curvature_angle * wing_line.nose_radius, side.min_edge));
+  }
+  return rows;
+}
+
+/// Lets rows continue where another line with rows begins at the same vertex.
+void let_rows_go_on(const Reference& r, std::vector<LineRows>& lines) {
+  std::vector<std::uint32_t> n_at(r.mesh->n_vertices(), 0);
+  for (const LineRows& rows : lines)
+    for (const VertexId v : {r.lines[static_cast<std::size_t>(rows.line)].vertices.front(), r.lines[static_cast<std::size_t>(rows.line)].vertices.back()})
+      ++n_at[v.index()];
+  for (LineRows& rows : lines) {
+    const FeatureLine& line = r.lines[static_cast<std::size_t>(rows.line)];
+    rows.is_going_on = {n_at[line.vertices.front().index()] == 2, n_at[line.vertices.back().index()] == 2};
+  }
+}
+
+}  // namespace
+
 RowLines find_row_lines(const Reference& r, const SurfaceLimitTable& limits_of, const RemeshOptions& options, std::span<const PatchSurfaceOptions> patches) {
   RowLines found;
   std::vector<BandTargets> targets;
-  bool is_leading_requested = false, is_trailing_requested = false;
-  for (const Patch& patch : r.mesh->patches) {
-    targets.push_back(band_targets(patch.name, options, patches));
-    is_leading_requested = is_leading_requested || targets.back().leading.is_any();
-    is_trailing_requested = is_trailing_requested || targets.back().trailing.is_any();
-  }
+  for (const Patch& patch : r.mesh->patches) targets.push_back(band_targets(patch.name, options, patches));
+  const bool is_leading_requested = std::ranges::any_of(targets, [](const BandTargets& target) { return target.leading.is_any(); });
+  const bool is_trailing_requested = std::ranges::any_of(targets, [](const BandTargets& target) { return target.trailing.is_any(); });
   if (!is_leading_requested && !is_trailing_requested) return found;
   const double length = body_length(*r.mesh);
   bool is_leading_found = false, is_trailing_found = false;
   for (std::size_t l = 0; l < r.lines.size(); ++l) {
-    const FeatureLine& line = r.lines[l];
-    bool is_free = true;
-    for (const HalfedgeId h : line.halfedges) {
-      const HalfedgeId o = r.topology.twin(h);
-      is_free = is_free && o.is_valid() && r.is_kept[triangle_of(h)] == 0 && r.is_kept[triangle_of(o)] == 0;
-    }
-    if (!is_free) continue;
+    if (!is_free(r, r.lines[l])) continue;
     const auto number = static_cast<std::int32_t>(l);
     const LineShape shape = shape_of_line(r, number, length);
-    std::optional<BandKind> kind;
-    std::optional<std::size_t> base;
-    double nose_radius = 0.0;
-    const double width = std::min(shape.width[0], shape.width[1]);
-    if (shape.n_sharp >= k_agreeing && std::abs(shape.looks) > k_looks_along) {
-      kind = shape.looks > 0.0 ? BandKind::trailing : BandKind::leading;
-    } else if ((line.is_nose ? is_ahead(r, line) : shape.n_convex >= k_agreeing && shape.looks < -k_looks_along) && line.length() > k_nose_length * width &&
-               std::max(shape.width[0], shape.width[1]) < k_alike_width * width) {
-      nose_radius = radius_across(r, number, k_nose_probe * width);
-      if (nose_radius <= k_nose_radius * width) kind = BandKind::leading;
-    } else if (shape.n_corner >= k_agreeing && (base = base_side(shape, line.length()))) {
-      kind = BandKind::trailing;
-    }
-    if (!kind) continue;
-    LineRows rows{.line = number, .sides = {}, .longest = std::numeric_limits<double>::infinity()};
-    HalfedgeId left = line.halfedges.front();
-    if (r.topology.from(left) != line.vertices.front()) left = r.topology.twin(left);
-    const std::array<TriangleId, 2> beside{triangle_of(left), triangle_of(r.topology.twin(left))};
-    for (std::size_t i = 0; i < 2; ++i) {
-      if (base && *base == i) continue;
-      const BandTargets& target = targets[r.mesh->triangle_patch[beside[i]].index()];
-      const BandTarget& band = *kind == BandKind::leading ? target.leading : target.trailing;
-      if (!band.is_any()) continue;
-      const SurfaceLimits& limits = limits_of.of(beside[i]);
-      rows.sides[i] = {true, std::min(limits.max_edge, band.first_height(limits.max_edge)), band.growth, limits.curvature_angle, limits.min_edge};
-      rows.longest = std::min(rows.longest, band.longest(limits.max_edge));
-      // All rows of one side must fit into their fraction of its width.
-      const double room = k_share_of_chord * shape.width[i];
-      rows.longest =
-          std::min(rows.longest, std::max(rows.sides[i].first, (room * (band.growth - 1.0) + rows.sides[i].first) / (k_isotropic_height * band.growth)));
-    }
+    const std::optional<WingLine> wing_line = wing_line_of(r, number, shape);
+    if (!wing_line) continue;
+    const LineRows rows = rows_of(r, number, shape, *wing_line, limits_of, targets);
     if (!rows.sides[0].is_any && !rows.sides[1].is_any) continue;
-    if (nose_radius > 0.0) {
-      rows.is_nose = true;
-      rows.at_ends = rows.longest;
-      for (const SideRows& side : rows.sides)
-        if (side.is_any) rows.at_ends = std::min(rows.at_ends, std::max(side.curvature_angle * nose_radius, side.min_edge));
-    }
-    (*kind == BandKind::leading ? is_leading_found : is_trailing_found) = true;
+    (wing_line->kind == BandKind::leading ? is_leading_found : is_trailing_found) = true;
     found.lines.push_back(rows);
   }
-  // Rows continue where another line with rows begins at the same vertex.
-  std::vector<std::uint32_t> n_at(r.mesh->n_vertices(), 0);
-  for (const LineRows& rows : found.lines)
-    for (const VertexId v : {r.lines[static_cast<std::size_t>(rows.line)].vertices.front(), r.lines[static_cast<std::size_t>(rows.line)].vertices.back()})
-      ++n_at[v.index()];
-  for (LineRows& rows : found.lines) {
-    const FeatureLine& line = r.lines[static_cast<std::size_t>(rows.line)];
-    rows.is_going_on = {n_at[line.vertices.front().index()] == 2, n_at[line.vertices.back().index()] == 2};
-  }
+  let_rows_go_on(r, found.lines);
   if (is_trailing_requested && !is_trailing_found)
     found.notes.push_back("no rows at trailing edges: the surface has no trailing edge (a sharp edge, or a side of a narrow base, that faces aft along x)");
   if (is_leading_requested && !is_leading_found)

@@ -102,21 +102,20 @@ struct NoseFinder {
   }
 };
 
-}  // namespace
-
-NoseCut cut_noses(const Reference& r, bool is_flat, const RunContext& context) {
-  const TriMesh& wall = *r.mesh;
+NoseFinder nose_finder(const Reference& r, const RunContext& context) {
   NoseFinder finder{r, Column<HalfedgeId, Vec3>(r.topology.n_halfedges()), Column<HalfedgeId, double>(r.topology.n_halfedges(), 0.0)};
   parallel_for(context, r.topology.n_halfedges(), [&](std::size_t i) {
     const HalfedgeId h(i);
     finder.span[h] = span_at(r, h);
     if (norm2(finder.span[h]) > 0.0) finder.ahead[h] = cross(r.normals[h], finder.span[h]).x;
   });
-  NoseCut cut;
-  cut.mesh.points = wall.points;
-  cut.mesh.patches = wall.patches;
-  // First come vertices that noses pass through or pass so closely that they are moved there, then edges that noses cross elsewhere.
-  Column<VertexId, std::uint8_t> is_on(wall.n_vertices(), 0);
+  return finder;
+}
+
+/// Marks the vertices that noses pass through, or pass so closely that they are moved there.
+Column<VertexId, std::uint8_t> vertices_on_noses(const NoseFinder& finder) {
+  const Reference& r = finder.r;
+  Column<VertexId, std::uint8_t> is_on(r.mesh->n_vertices(), 0);
   for (std::size_t i = 0; i < r.topology.n_halfedges(); ++i) {
     const HalfedgeId h(i), o = r.topology.twin(h);
     if (norm2(finder.span[h]) > 0.0 && std::abs(finder.ahead[h]) < k_exactly_ahead && r.normals[h].x < k_nose_ahead) is_on[r.topology.from(h)] = 1;
@@ -125,62 +124,89 @@ NoseCut cut_noses(const Reference& r, bool is_flat, const RunContext& context) {
     if (t >= 0.0 && t < k_snap) is_on[r.topology.from(h)] = 1;
     if (t > 1.0 - k_snap) is_on[r.topology.to(h)] = 1;
   }
+  return is_on;
+}
+
+/// Adds a vertex where a nose crosses an edge elsewhere. Returns the new vertex of each half-edge.
+Column<HalfedgeId, VertexId> add_crossings(const NoseFinder& finder, const Column<VertexId, std::uint8_t>& is_on, bool is_flat, NoseCut& cut) {
+  const Reference& r = finder.r;
   Column<HalfedgeId, VertexId> node(r.topology.n_halfedges());
   for (std::size_t i = 0; i < r.topology.n_halfedges(); ++i) {
     const HalfedgeId h(i), o = r.topology.twin(h);
     if ((o.is_valid() && o < h) || is_on[r.topology.from(h)] != 0 || is_on[r.topology.to(h)] != 0) continue;
     const double t = finder.crossing(h);
     if (t < 0.0) continue;
-    const Point &a = wall.points[r.topology.from(h)], &b = wall.points[r.topology.to(h)];
+    const Point &a = r.mesh->points[r.topology.from(h)], &b = r.mesh->points[r.topology.to(h)];
     node[h] = node[o] = cut.mesh.points.push_back(a + t * (b - a) + (is_flat ? 0.0 : 4.0 * t * (1.0 - t)) * r.bulges[h]);
   }
-  const auto add = [&](TriangleId t, VertexId a, VertexId b, VertexId c) {
-    cut.mesh.triangles.push_back({a, b, c});
-    cut.mesh.triangle_patch.push_back(wall.triangle_patch[t]);
+  return node;
+}
+
+/// Adds the edge of a nose within a triangle, if one passes through it. \p middle new vertices of the three edges; invalid: the edge is not split
+void add_nose_edge(const TriangleVertices& v, const std::array<VertexId, 3>& middle, const Column<VertexId, std::uint8_t>& is_on, NoseCut& cut) {
+  std::size_t n_through = 0;
+  std::array<VertexId, 2> through;
+  const auto pass = [&](VertexId p) {
+    if (n_through < 2) through[n_through] = p;
+    ++n_through;
   };
-  for (const TriangleId t : wall.triangles.ids()) {
-    const TriangleVertices& v = wall.triangles[t];
-    std::size_t n_split = 0, n_through = 0, first = 0, whole = 0;
-    std::array<VertexId, 2> through;
-    const auto pass = [&](VertexId p) {
-      if (n_through < 2) through[n_through] = p;
-      ++n_through;
-    };
-    for (std::size_t k = 0; k < 3; ++k) {
-      const HalfedgeId h = halfedge(t, static_cast<int>(k));
-      if (is_on[v[k]] != 0) pass(v[k]);
-      if (node[h].is_valid()) {
-        pass(node[h]);
-        if (n_split++ == 0) first = k;
-      } else {
-        whole = k;
-      }
-    }
-    if (n_through == 2) cut.edges.push_back({std::min(through[0], through[1]), std::max(through[0], through[1])});
-    const auto middle = [&](std::size_t k) { return node[halfedge(t, static_cast<int>(k % 3))]; };
-    if (n_split == 0) {
-      add(t, v[0], v[1], v[2]);
-    } else if (n_split == 1) {
-      const VertexId m = middle(first), a = v[first], b = v[(first + 1) % 3], c = v[(first + 2) % 3];
-      add(t, a, m, c);
-      add(t, m, b, c);
-    } else if (n_split == 2) {
-      // The edge a b is not split; m lies on b c, n on c a.
-      const VertexId a = v[whole], b = v[(whole + 1) % 3], c = v[(whole + 2) % 3], m = middle(whole + 1), n = middle(whole + 2);
-      add(t, n, m, c);
-      if (distance(cut.mesh.points[a], cut.mesh.points[m]) <= distance(cut.mesh.points[b], cut.mesh.points[n])) {
-        add(t, a, b, m);
-        add(t, a, m, n);
-      } else {
-        add(t, a, b, n);
-        add(t, b, m, n);
-      }
+  for (std::size_t k = 0; k < 3; ++k) {
+    if (is_on[v[k]] != 0) pass(v[k]);
+    if (middle[k].is_valid()) pass(middle[k]);
+  }
+  if (n_through == 2) cut.edges.push_back({std::min(through[0], through[1]), std::max(through[0], through[1])});
+}
+
+/// Adds the parts of a triangle. The arguments are those of add_nose_edge().
+void add_parts(const TriangleVertices& v, const std::array<VertexId, 3>& middle, PatchId patch, NoseCut& cut) {
+  const auto add = [&](VertexId a, VertexId b, VertexId c) {
+    cut.mesh.triangles.push_back({a, b, c});
+    cut.mesh.triangle_patch.push_back(patch);
+  };
+  std::size_t n_split = 0, first = 0, whole = 0;
+  for (std::size_t k = 0; k < 3; ++k) {
+    if (!middle[k].is_valid()) whole = k;
+    else if (n_split++ == 0) first = k;
+  }
+  if (n_split == 0) {
+    add(v[0], v[1], v[2]);
+  } else if (n_split == 1) {
+    const VertexId m = middle[first], a = v[first], b = v[(first + 1) % 3], c = v[(first + 2) % 3];
+    add(a, m, c);
+    add(m, b, c);
+  } else if (n_split == 2) {
+    // The edge a b is not split; m lies on b c, n on c a.
+    const VertexId a = v[whole], b = v[(whole + 1) % 3], c = v[(whole + 2) % 3], m = middle[(whole + 1) % 3], n = middle[(whole + 2) % 3];
+    add(n, m, c);
+    if (distance(cut.mesh.points[a], cut.mesh.points[m]) <= distance(cut.mesh.points[b], cut.mesh.points[n])) {
+      add(a, b, m);
+      add(a, m, n);
     } else {
-      add(t, v[0], middle(0), middle(2));
-      add(t, middle(0), v[1], middle(1));
-      add(t, middle(2), middle(1), v[2]);
-      add(t, middle(0), middle(1), middle(2));
+      add(a, b, n);
+      add(b, m, n);
     }
+  } else {
+    add(v[0], middle[0], middle[2]);
+    add(middle[0], v[1], middle[1]);
+    add(middle[2], middle[1], v[2]);
+    add(middle[0], middle[1], middle[2]);
+  }
+}
+
+}  // namespace
+
+NoseCut cut_noses(const Reference& r, bool is_flat, const RunContext& context) {
+  const TriMesh& wall = *r.mesh;
+  const NoseFinder finder = nose_finder(r, context);
+  NoseCut cut;
+  cut.mesh.points = wall.points;
+  cut.mesh.patches = wall.patches;
+  const Column<VertexId, std::uint8_t> is_on = vertices_on_noses(finder);
+  const Column<HalfedgeId, VertexId> node = add_crossings(finder, is_on, is_flat, cut);
+  for (const TriangleId t : wall.triangles.ids()) {
+    const std::array<VertexId, 3> middle{node[halfedge(t, 0)], node[halfedge(t, 1)], node[halfedge(t, 2)]};
+    add_nose_edge(wall.triangles[t], middle, is_on, cut);
+    add_parts(wall.triangles[t], middle, wall.triangle_patch[t], cut);
   }
   std::sort(cut.edges.begin(), cut.edges.end());
   cut.edges.erase(std::unique(cut.edges.begin(), cut.edges.end()), cut.edges.end());

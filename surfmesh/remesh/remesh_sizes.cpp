@@ -115,11 +115,12 @@ double least_edge(const TriMesh& wall, const RemeshOptions& options, std::span<c
   return SurfaceLimitTable(wall, Topology(wall, context), options, patches).least();
 }
 
-SurfaceLimitTable::SurfaceLimitTable(const TriMesh& wall, const Topology& topology, const RemeshOptions& options, std::span<const PatchSurfaceOptions> rules)
+SurfaceLimitTable::SurfaceLimitTable(Borrowed<const TriMesh> wall, const Topology& topology, const RemeshOptions& options,
+                                     std::span<const PatchSurfaceOptions> rules)
     : wall_(wall), pieces_(connected_components(wall, topology)) {
   for (const double edge : automatic_edges(wall, pieces_)) {
     limits_.emplace_back();
-    for (const Patch& patch : wall.patches) limits_.back().push_back(limits_of(patch.name, edge, options, rules));
+    for (const Patch& patch : wall->patches) limits_.back().push_back(limits_of(patch.name, edge, options, rules));
   }
 }
 
@@ -130,18 +131,18 @@ double SurfaceLimitTable::least() const {
   return least;
 }
 
-RemeshSizes::RemeshSizes(const Reference& reference, const RemeshOptions& options, std::span<const PatchSurfaceOptions> patches, const SpaceSizes& requested,
-                         const RunContext& context)
+RemeshSizes::RemeshSizes(Borrowed<const Reference> reference, const RemeshOptions& options, std::span<const PatchSurfaceOptions> patches,
+                         const SpaceSizes& requested, const RunContext& context)
     : r_(reference),
       options_(options),
       patches_(patches.begin(), patches.end()),
       requested_(requested),
       refinement_(options.refinement),
       slope_((options.growth - 1.0) / options.refinement),
-      cap_(reference.mesh->n_triangles()),
-      min_edge_(reference.mesh->n_triangles()),
-      own_(reference.mesh->n_triangles()),
-      at_(reference.mesh->n_vertices()) {
+      cap_(reference->mesh->n_triangles()),
+      min_edge_(reference->mesh->n_triangles()),
+      own_(reference->mesh->n_triangles()),
+      at_(reference->mesh->n_vertices()) {
   cover({}, context);
 }
 

@@ -5,6 +5,7 @@
 #include <span>
 #include <vector>
 
+#include "geom/base/borrowed.h"
 #include "geom/base/run_context.h"
 #include "geom/mesh/size_points.h"
 #include "surfmesh/remesh/reference.h"
@@ -22,8 +23,7 @@ struct SurfaceLimits {
 /// Limits of each triangle. The automatic longest edge is computed for each connected piece.
 class SurfaceLimitTable {
  public:
-  /// The wall must outlive this object.
-  SurfaceLimitTable(const TriMesh& wall, const Topology& topology, const RemeshOptions& options, std::span<const PatchSurfaceOptions> rules);
+  SurfaceLimitTable(Borrowed<const TriMesh> wall, const Topology& topology, const RemeshOptions& options, std::span<const PatchSurfaceOptions> rules);
   const SurfaceLimits& of(TriangleId t) const { return limits_[pieces_.component[t]][wall_.triangle_patch[t].index()]; }
   /// Returns the shortest target edge in metres that is possible anywhere.
   double least() const;
@@ -36,9 +36,9 @@ class SurfaceLimitTable {
 
 class RemeshSizes {
  public:
-  /// Computes the sizes required by options, patches, curvature, gaps and `requested`. The reference must outlive this object.
+  /// Computes the sizes required by options, patches, curvature, gaps and `requested`.
   /// \throws Error(bad_argument) like remesh_surface
-  RemeshSizes(const Reference& reference, const RemeshOptions& options, std::span<const PatchSurfaceOptions> patches, const SpaceSizes& requested,
+  RemeshSizes(Borrowed<const Reference> reference, const RemeshOptions& options, std::span<const PatchSurfaceOptions> patches, const SpaceSizes& requested,
               const RunContext& context);
 
   /// Returns the size in metres at a point on or near a triangle of the reference. Thread-safe, unless there is a user function (is_serial).

@@ -47,8 +47,8 @@ constexpr double k_longest_after_collapse = 1.35;
 
 }  // namespace
 
-Remesher::Remesher(const Reference& reference, const RemeshSizes& sizes, const RunContext& context)
-    : r_(reference), sizes_(sizes), context_(context), mesh_(work_mesh_of(reference)), locked_(reference.lines.size(), 0) {
+Remesher::Remesher(Borrowed<const Reference> reference, Borrowed<const RemeshSizes> sizes, const RunContext& context)
+    : r_(reference), sizes_(sizes), context_(context), mesh_(work_mesh_of(reference)), locked_(reference->lines.size(), 0) {
   for (std::size_t l = 0; l < locked_.size(); ++l) {
     const HalfedgeId h = r_.lines[l].halfedges.front(), o = r_.topology.twin(h);
     locked_[l] = r_.is_kept[triangle_of(h)] != 0 || (o.is_valid() && r_.is_kept[triangle_of(o)] != 0) ? 1 : 0;

@@ -4,6 +4,7 @@
 #include <cstdint>
 #include <vector>
 
+#include "geom/base/borrowed.h"
 #include "geom/base/run_context.h"
 #include "surfmesh/remesh/line_rows.h"
 #include "surfmesh/remesh/remesh_sizes.h"
@@ -16,8 +17,8 @@ namespace sterna::surfmesh {
 /// the number of threads.
 class Remesher {
  public:
-  /// Starts with the reference's own triangles. `reference` and `sizes` must outlive this object.
-  Remesher(const Reference& reference, const RemeshSizes& sizes, const RunContext& context);
+  /// Starts with the reference's own triangles.
+  Remesher(Borrowed<const Reference> reference, Borrowed<const RemeshSizes> sizes, const RunContext& context);
 
   /// Collapses edges shorter than `least` times the target length, shortest first. Returns the number of collapses. In the first call triangles may be inverted
   /// against the reference if some of those before were inverted, because sliver triangles of the input often are.
@@ -45,7 +46,7 @@ class Remesher {
 
   /// Grows rows of stretched triangles. The mesh is opened along the lines. On each side with rows, the opened border moves away from the line row by row,
   /// while the triangles in front of it make room. The row triangles themselves are made by result(). Lines with rows and the moved border do not change
-  /// afterwards. Call once.
+  /// afterwards. \pre no rows have grown yet
   void grow_rows(std::span<const LineRows> rows);
   /// Returns the outer ends of rows with the edge lengths there. Sizes have to increase from these values.
   std::vector<SizePoint> row_ends() const;
@@ -138,6 +139,11 @@ class Remesher {
   static constexpr std::size_t k_no_column = ~std::size_t{0};
 
   void open_lines(std::span<const LineRows> rows);
+  struct Opening;
+  Opening find_cuts(std::span<const LineRows> rows);
+  void cut_apart(Opening& opening);
+  void copy_fan(VertexId v, HalfedgeId first, Opening& opening);
+  void start_column(std::size_t number, const Column<VertexId, std::size_t>& column_of, const Opening& opening);
   bool is_front(HalfedgeId h) const { return mesh_.line(h) == front_; }
   bool grow_column(LineColumn& column, std::size_t row);
   bool advance(LineColumn& column, const WorkVertex& target, double height);

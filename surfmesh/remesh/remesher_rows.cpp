@@ -34,94 +34,122 @@ constexpr double k_straight_on = 0.5;
 
 }  // namespace
 
-/// Splits each vertex on the lines into one copy for each fan of triangles around it.
-void Remesher::open_lines(std::span<const LineRows> rows) {
-  front_ = static_cast<std::int32_t>(r_.lines.size());
-  locked_.resize(r_.lines.size() + 1, 0);
-  locked_.back() = 1;
-  std::vector<const LineRows*> rows_of(r_.lines.size(), nullptr);
-  for (const LineRows& l : rows) rows_of[static_cast<std::size_t>(l.line)] = &l;
+/// The lines with rows while the mesh is opened along them.
+struct Remesher::Opening {
   struct Cut {
     HalfedgeId halfedge;
     const SideRows* side;  ///< null if there are no rows on this side
   };
+  /// Half-edges of the border that end and begin at a column's vertex.
+  struct Border {
+    HalfedgeId in, out;
+  };
+  std::vector<const LineRows*> rows_of;  ///< rows of each line; null if there are none
   std::vector<Cut> cuts;
-  std::vector<VertexId> touched;
-  Column<HalfedgeId, const SideRows*> side_of(mesh_.twins.size(), nullptr);
+  Column<HalfedgeId, const SideRows*> side_of;  ///< rows in front of each half-edge; null if there are none
+  std::vector<VertexId> touched;                ///< vertices of the cuts, ascending
+  std::vector<Border> borders;                  ///< border at each column
+
+  const LineRows& rows(std::int32_t line) const { return *rows_of[static_cast<std::size_t>(line)]; }
+};
+
+/// Finds the half-edges and vertices of all lines with rows.
+Remesher::Opening Remesher::find_cuts(std::span<const LineRows> rows) {
+  Opening opening;
+  opening.rows_of.resize(r_.lines.size(), nullptr);
+  for (const LineRows& l : rows) opening.rows_of[static_cast<std::size_t>(l.line)] = &l;
+  opening.side_of.resize(mesh_.twins.size(), nullptr);
   for (const HalfedgeId h : mesh_.twins.ids()) {
     const std::int32_t l = mesh_.line(h);
-    if (mesh_.is_removed(triangle_of(h)) || l == k_no_line || rows_of[static_cast<std::size_t>(l)] == nullptr) continue;
+    if (mesh_.is_removed(triangle_of(h)) || l == k_no_line || opening.rows_of[static_cast<std::size_t>(l)] == nullptr) continue;
     const bool is_along = s_on_line(mesh_.from(h), l) < s_on_line(mesh_.to(h), l);
-    const SideRows& side = rows_of[static_cast<std::size_t>(l)]->sides[is_along ? 0 : 1];
-    cuts.push_back({h, side.is_any ? &side : nullptr});
-    side_of[h] = cuts.back().side;
-    touched.push_back(mesh_.from(h));
+    const SideRows& side = opening.rows(l).sides[is_along ? 0 : 1];
+    opening.cuts.push_back({h, side.is_any ? &side : nullptr});
+    opening.side_of[h] = opening.cuts.back().side;
+    opening.touched.push_back(mesh_.from(h));
   }
-  std::sort(touched.begin(), touched.end());
-  touched.erase(std::unique(touched.begin(), touched.end()), touched.end());
+  std::sort(opening.touched.begin(), opening.touched.end());
+  opening.touched.erase(std::unique(opening.touched.begin(), opening.touched.end()), opening.touched.end());
+  return opening;
+}
+
+/// Separates the triangles on both sides of the cuts. Each vertex is replaced by one copy for each fan of triangles around it, and copies with rows on both
+/// edges of their fan start a column.
+void Remesher::cut_apart(Opening& opening) {
   std::vector<std::vector<HalfedgeId>> around;
-  for (const VertexId v : touched) {
+  for (const VertexId v : opening.touched) {
     around.emplace_back();
     mesh_.for_out(v, [&](HalfedgeId h) { around.back().push_back(h); });
   }
-  for (const Cut& cut : cuts) {
+  for (const Opening::Cut& cut : opening.cuts) {
     mesh_.twins[cut.halfedge] = {};
     locked_[static_cast<std::size_t>(mesh_.line(cut.halfedge))] = 1;
   }
-  struct Border {
-    std::size_t column;
-    HalfedgeId in, out;  ///< half-edges of the border that end and begin at the column's vertex
-  };
-  std::vector<Border> borders;
-  for (std::size_t i = 0; i < touched.size(); ++i) {
-    for (const HalfedgeId first : around[i]) {
-      if (mesh_.twins[first].is_valid()) continue;
-      WorkVertex v = mesh_.vertices[touched[i]];
-      v.is_fixed = true;
-      const VertexId copy = mesh_.vertices.push_back(v);
-      mesh_.outgoing.push_back(first);
-      bool has_line = false;
-      HalfedgeId in;
-      for (HalfedgeId h = first; h.is_valid(); h = mesh_.twins[in]) {
-        mesh_.triangles[triangle_of(h)][corner_of(h)] = copy;
-        has_line = has_line || (h != first && mesh_.is_line(h));
-        in = previous(h);
-      }
-      copies_.emplace_back(copy, touched[i]);
-      if (side_of[first] == nullptr || side_of[in] == nullptr || has_line) continue;
-      borders.push_back({columns_.size(), in, first});
-      LineColumn column;
-      column.vertex = copy;
-      column.side_rows = side_of[first];
-      columns_.push_back(column);
-    }
-    mesh_.outgoing[touched[i]] = {};
+  for (std::size_t i = 0; i < opening.touched.size(); ++i) {
+    for (const HalfedgeId first : around[i])
+      if (!mesh_.twins[first].is_valid()) copy_fan(opening.touched[i], first, opening);
+    mesh_.outgoing[opening.touched[i]] = {};
   }
+}
+
+/// Gives a copy of a vertex to the fan of triangles that begins at the half-edge `first`.
+void Remesher::copy_fan(VertexId v, HalfedgeId first, Opening& opening) {
+  WorkVertex vertex = mesh_.vertices[v];
+  vertex.is_fixed = true;
+  const VertexId copy = mesh_.vertices.push_back(vertex);
+  mesh_.outgoing.push_back(first);
+  bool has_line = false;
+  HalfedgeId in;
+  for (HalfedgeId h = first; h.is_valid(); h = mesh_.twins[in]) {
+    mesh_.triangles[triangle_of(h)][corner_of(h)] = copy;
+    has_line = has_line || (h != first && mesh_.is_line(h));
+    in = previous(h);
+  }
+  copies_.emplace_back(copy, v);
+  if (opening.side_of[first] == nullptr || opening.side_of[in] == nullptr || has_line) return;
+  opening.borders.push_back({in, first});
+  LineColumn column;
+  column.vertex = copy;
+  column.side_rows = opening.side_of[first];
+  columns_.push_back(column);
+}
+
+/// Sets the neighbours, the first row and the room of a column.
+void Remesher::start_column(std::size_t number, const Column<VertexId, std::size_t>& column_of, const Opening& opening) {
+  LineColumn& column = columns_[number];
+  const Opening::Border& border = opening.borders[number];
+  column.before = mesh_.from(border.in);
+  column.after = mesh_.to(border.out);
+  column.before_column = column_of[column.before];
+  column.after_column = column_of[column.after];
+  const Point& p = mesh_.at(column.vertex);
+  column.spacing = 0.5 * (distance(p, mesh_.at(column.before)) + distance(p, mesh_.at(column.after)));
+  // The vertex on the line needs the normal of this side. If both sides are in one smooth piece, the hints of triangles may be from the other side.
+  const std::int32_t l = mesh_.line(border.out);
+  const FeatureLine& line = r_.lines[static_cast<std::size_t>(l)];
+  column.is_nose = opening.rows(l).is_nose;
+  const double s_here = s_on_line(column.vertex, l);
+  const std::size_t segment = r_.line_location(l, s_here).segment;
+  HalfedgeId h = line.halfedges[segment];
+  if ((r_.topology.from(h) == line.vertices[segment]) != (s_here < s_on_line(column.after, l))) h = r_.topology.twin(h);
+  WorkVertex location = mesh_.vertices[column.vertex];
+  location.location = r_.nearest(p, triangle_of(h));
+  location.normal = r_.normal(location.location);
+  column.rows.push_back(location);
+  column.room = k_share_of_chord * width_across(r_, h, 1e3 * column.spacing);
+}
+
+/// Opens the mesh along the lines with rows. \pre there are no columns yet
+void Remesher::open_lines(std::span<const LineRows> rows) {
+  front_ = static_cast<std::int32_t>(r_.lines.size());
+  locked_.resize(r_.lines.size() + 1, 0);
+  locked_.back() = 1;
+  Opening opening = find_cuts(rows);
+  cut_apart(opening);
   Column<VertexId, std::size_t> column_of(mesh_.vertices.size(), k_no_column);
   for (std::size_t c = 0; c < columns_.size(); ++c) column_of[columns_[c].vertex] = c;
-  for (const Border& b : borders) {
-    LineColumn& column = columns_[b.column];
-    column.before = mesh_.from(b.in);
-    column.after = mesh_.to(b.out);
-    column.before_column = column_of[column.before];
-    column.after_column = column_of[column.after];
-    const Point& p = mesh_.at(column.vertex);
-    column.spacing = 0.5 * (distance(p, mesh_.at(column.before)) + distance(p, mesh_.at(column.after)));
-    // The vertex on the line needs the normal of this side. If both sides are in one smooth piece, the hints of triangles may be from the other side.
-    const std::int32_t l = mesh_.line(b.out);
-    const FeatureLine& line = r_.lines[static_cast<std::size_t>(l)];
-    column.is_nose = rows_of[static_cast<std::size_t>(l)]->is_nose;
-    const double s_here = s_on_line(column.vertex, l);
-    const std::size_t segment = r_.line_location(l, s_here).segment;
-    HalfedgeId h = line.halfedges[segment];
-    if ((r_.topology.from(h) == line.vertices[segment]) != (s_here < s_on_line(column.after, l))) h = r_.topology.twin(h);
-    WorkVertex location = mesh_.vertices[column.vertex];
-    location.location = r_.nearest(p, triangle_of(h));
-    location.normal = r_.normal(location.location);
-    column.rows.push_back(location);
-    column.room = k_share_of_chord * width_across(r_, h, 1e3 * column.spacing);
-  }
-  for (const Cut& cut : cuts) {
+  for (std::size_t c = 0; c < columns_.size(); ++c) start_column(c, column_of, opening);
+  for (const Opening::Cut& cut : opening.cuts) {
     if (cut.side == nullptr) continue;
     const VertexId a = mesh_.from(cut.halfedge), b = mesh_.to(cut.halfedge);
     row_edges_.push_back({a, b, column_of[a], column_of[b], mesh_.hint[triangle_of(cut.halfedge)]});

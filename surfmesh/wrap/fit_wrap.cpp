@@ -541,8 +541,8 @@ class WrapFitter {
 
 // ---- The input ----
 
-InputSurface::InputSurface(const WrapInput& input, const RunContext& context)
-    : input_(input), facets_(input.mesh, context), lines_(segments_mesh(input.lines), context), corners_(points_mesh(input.corners), context) {}
+InputSurface::InputSurface(Borrowed<const WrapInput> input, const RunContext& context)
+    : input_(input), facets_(input->mesh, context), lines_(segments_mesh(input->lines), context), corners_(points_mesh(input->corners), context) {}
 
 NearestHit InputSurface::nearest_line(const Vec3& p, double limit) const { return input_.lines.empty() ? NearestHit{} : lines_.nearest(p, limit); }
 

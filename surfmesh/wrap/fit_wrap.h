@@ -4,6 +4,7 @@
 #include <cstdint>
 #include <vector>
 
+#include "geom/base/borrowed.h"
 #include "geom/boolean/cgal_wrap.h"
 #include "geom/mesh/bvh.h"
 #include "surfmesh/wrap/wrap_input.h"
@@ -29,7 +30,7 @@ struct FittedWrap {
 /// The input for distance queries: facets, lines and corners.
 class InputSurface {
  public:
-  InputSurface(const WrapInput& input, const RunContext& context);
+  InputSurface(Borrowed<const WrapInput> input, const RunContext& context);
 
   const WrapInput& input() const { return input_; }
   const TriangleTree& facets() const { return facets_; }

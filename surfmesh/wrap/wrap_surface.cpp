@@ -1,6 +1,4 @@
-// This is the driver. Steps: read the soup in metres (read_wrap_input) and mirror a half model; choose sizes and estimate the work; close openings between edge
-// and gap by a coarser wrap (close_openings); wrap; fit the wrap to the input (fit_wrap); measure changes (measure_wrap); assign patches; cut out the half;
-// check the result.
+// This is the driver. wrap_surface() at the end is the list of its steps; they share a WrapWork.
 #include "surfmesh/wrap/wrap_surface.h"
 
 #include <algorithm>
@@ -127,7 +125,21 @@ double area_of(const WrapSurface& wrap) {
 struct GapTrial {
   double gap = 0.0, alpha = 0.0;  ///< m
   WrapSurface wrap;
-  double leaking = 0.0;  ///< result of leaking_share
+  double leaking = 0.0;  ///< result of leaking_share; 0 if only one gap may be tried
+};
+
+/// Data shared by the steps of a wrap. begin_wrap() makes it. Every step may report; other members change only in steps whose comments say so.
+struct WrapWork {
+  const WrapOptions& options;
+  const RunContext& context;
+  WrapReport report;
+  WrapInput input;
+  WrapSizes sizes;
+  AlphaWrapInput soup;  ///< the facets as read, and the location from which a tunnel is wrapped
+
+  bool is_half() const { return !input.half_axis.empty(); }
+  RunContext while_closing() const { return context.part("close", k_read_end, k_close_end); }
+  RunContext while_wrapping() const { return context.part("wrap", k_close_end, k_wrap_end); }
 };
 
 /// Returns the leaking fraction above which a gap is considered to leak.
@@ -269,6 +281,169 @@ TriMesh finished_mesh(const FittedWrap& fitted, const TriMesh& input) {
   return mesh;
 }
 
+/// Copies the sizes to the report, except the gap, which later steps choose.
+void report_sizes(double area, WrapWork& work) {
+  work.report.edge = work.sizes.edge;
+  work.report.tolerance = work.sizes.tolerance;
+  work.report.offset = work.sizes.offset;
+  work.report.expected_triangles = expected_triangles(area, work.sizes.edge);
+}
+
+/// Reads the input, mirrors a half model, chooses the sizes and reports them.
+WrapWork begin_wrap(const std::vector<SurfaceSoup>& soups, const WrapOptions& options, const RunContext& context) {
+  WrapWork work{.options = options, .context = context};
+  work.input = read_wrap_input(soups, options, work.report, context);
+  work.sizes = choose_sizes(work.input.area, work.input.length, options);
+  check_sizes(work.input, work.sizes, options);
+  work.sizes.is_fluid_inside = options.fluid == "inside";
+  if (options.half == "automatic" && !work.sizes.is_fluid_inside) mirror_half(work.input, work.sizes.gap, work.report, context);
+  if (work.is_half()) find_lines(work.input, options.features);
+  report_sizes(work.input.area, work);
+  work.report.gap = work.sizes.gap;
+  work.report.n_feature_edges = static_cast<std::int64_t>(work.input.lines.size());
+  context.info("wrap: edge " + short_number(work.sizes.edge) + " m, gap " + short_number(work.sizes.gap) + " m, tolerance " +
+               short_number(work.sizes.tolerance) + " m; about " + std::to_string(work.report.expected_triangles) + " triangles expected");
+  context.progress(k_read_end);
+  work.soup = alpha_input(work.input);
+  if (work.sizes.is_fluid_inside) work.soup.seeds = {find_seed(work.input, work.sizes.edge, context)};
+  return work;
+}
+
+/// Returns the wrap of a soup by a ball of radius `alpha`, with normals into the fluid.
+WrapSurface wrapped(AlphaWrapInput& soup, double alpha, double offset, const WrapWork& work, const RunContext& context) {
+  soup.alpha = alpha;
+  soup.offset = offset;
+  soup.max_points = 2 * static_cast<std::int64_t>(work.options.max_triangles);
+  soup.expected_points = expected_triangles(work.input.area, alpha) / 2;
+  WrapSurface wrap = alpha_wrap(soup, context);
+  if (work.sizes.is_fluid_inside)
+    for (auto& t : wrap.triangles) std::swap(t[1], t[2]);
+  if (wrap.triangles.empty())
+    throw Error({.code = ErrorCode::geometry_failed,
+                 .attempted = "wrapping",
+                 .problem = "alpha = " + short_number(alpha) + " m yields an empty wrap",
+                 .hint = "a smaller edge or gap"});
+  return wrap;
+}
+
+/// Returns the gaps that may be tried, ascending: only the requested one, or the automatic one and its doubles.
+std::vector<double> gaps_of(const WrapWork& work) {
+  std::vector<double> gaps{work.sizes.gap};
+  if (is_automatic(work.options.gap) && !work.sizes.is_fluid_inside)
+    while (gaps.back() <= k_widest_gap * work.input.length) gaps.push_back(2.0 * gaps.back());
+  return gaps;
+}
+
+/// Orients the parts of the input by the trial's wrap.
+void turn_by(const GapTrial& trial, WrapWork& work) {
+  const double offset = trial.alpha > work.sizes.edge ? coarse_offset(work.sizes) : work.sizes.offset;
+  turn_parts(work.input, wrap_mesh(trial.wrap.points, trial.wrap.triangles), 2.0 * offset + work.sizes.tolerance, work.context);
+}
+
+/// Wraps with a gap, and orients the parts of the input by that wrap. \p is_measured the leaking fraction is needed. Sets work.sizes.gap.
+GapTrial try_gap(double gap, bool is_measured, WrapWork& work) {
+  work.sizes.gap = gap;
+  const bool is_coarse = !work.sizes.is_fluid_inside && gap > k_gap_of_edge * work.sizes.edge;
+  GapTrial trial{.gap = gap, .alpha = is_coarse ? 0.5 * gap : work.sizes.edge};
+  trial.wrap = wrapped(work.soup, trial.alpha, is_coarse ? coarse_offset(work.sizes) : work.sizes.offset, work,
+                       is_coarse ? work.while_closing() : work.while_wrapping());
+  turn_by(trial, work);
+  if (is_measured) trial.leaking = leaking_share(work.input, trial.wrap, 0.25 * trial.alpha, work.context);
+  return trial;
+}
+
+/// Returns the trials, ascending by their gaps. A wrap costs four times as much as the wrap for the next wider gap. If there are openings wider than the first
+/// gap, gaps are therefore tried from the widest one down until one leaks. Otherwise they are tried from the first one upwards while they leak.
+std::vector<GapTrial> make_trials(WrapWork& work) {
+  const std::vector<double> gaps = gaps_of(work);
+  const bool is_measured = gaps.size() > 1;
+  std::vector<GapTrial> trials;
+  if (is_measured && widest_opening(work.input) > gaps.front()) {
+    double least = std::numeric_limits<double>::infinity();
+    for (auto gap = gaps.rbegin(); gap != gaps.rend(); ++gap) {
+      const double leaking = trials.emplace_back(try_gap(*gap, is_measured, work)).leaking;
+      if (leaking >= leaking_limit(least)) break;
+      least = std::min(least, leaking);
+    }
+    std::reverse(trials.begin(), trials.end());
+  } else {
+    for (const double gap : gaps)
+      if (trials.emplace_back(try_gap(gap, is_measured, work)).leaking < k_leaking_share) break;
+  }
+  return trials;
+}
+
+/// Returns the trial of the smallest gap that closes the openings. Sets work.sizes.gap, and orients the parts of the input by this trial.
+GapTrial choose_trial(std::vector<GapTrial> trials, WrapWork& work) {
+  const std::size_t chosen = least_gap(trials);
+  work.sizes.gap = trials[chosen].gap;
+  if (trials.size() > 1) turn_by(trials[chosen], work);
+  if (gaps_of(work).size() > 1) report_gap(trials, chosen, work.input.length, work.report);
+  return std::move(trials[chosen]);
+}
+
+/// Chooses work.sizes again, by the area of the trial's wrap, if that wrap covers both sides of baffles.
+void size_by_area(const GapTrial& trial, WrapWork& work) {
+  const double area = area_of(trial.wrap);
+  if (!is_automatic(work.options.edge) || area <= k_both_sides * work.input.area) return;
+  const WrapSizes before = work.sizes;
+  work.sizes = choose_sizes(area, work.input.length, work.options);
+  work.sizes.gap = std::max(before.gap, k_gap_of_edge * work.sizes.edge);
+  work.sizes.is_fluid_inside = before.is_fluid_inside;
+  report_sizes(area, work);
+  work.report.messages.push_back("the wrap, including both sides of sheets and closed openings, has " + short_number(area) + " m^2, the input " +
+                                 short_number(work.input.area) + " m^2: the edge is set to " + short_number(work.sizes.edge) + " m");
+}
+
+/// Returns the wrap with the final ball after closing the openings through which only the trial's larger ball does not pass.
+WrapSurface wrap_without_openings(const GapTrial& trial, WrapWork& work) {
+  const WrapSizes& sizes = work.sizes;
+  const double most = std::max(k_leaking_share, trial.leaking + k_leaking_share);
+  const double glance = k_glance_ball * sizes.edge;
+  const auto leaks = [&](const WrapSurface& wrap, double ball) { return !(leaking_share(work.input, wrap, 0.25 * ball, work.context) < most); };
+  const auto finish = [&](WrapSurface wrap, std::string closed) {
+    if (!closed.empty()) work.report.messages.push_back(std::move(closed));
+    return wrap;
+  };
+  // First only the facets that the input nearly encloses are used, so that grooves keep their depth. Openings that remain and are wider than the preliminary
+  // ball are detected with a sixteenth of the points of the final wrap.
+  AlphaWrapInput soup = alpha_input(work.input);
+  std::string closed = close_openings(work.input, sizes, trial.wrap, k_closing, soup, work.context);
+  if (glance >= trial.alpha || !leaks(wrapped(soup, glance, k_coarse_offset * glance, work, work.while_closing()), glance)) {
+    WrapSurface wrap = wrapped(soup, sizes.edge, sizes.offset, work, work.while_wrapping());
+    if (!leaks(wrap, sizes.edge)) return finish(std::move(wrap), std::move(closed));
+  }
+  // The leaking fraction is larger than with a ball of half the gap, so all facets closed by that ball are used.
+  soup = alpha_input(work.input);
+  closed = close_openings(work.input, sizes, trial.wrap, -k_unbounded, soup, work.context);
+  return finish(wrapped(soup, sizes.edge, sizes.offset, work, work.while_wrapping()), std::move(closed));
+}
+
+/// Returns the wrap with a ball of the edge's size. Completes the report of the sizes.
+WrapSurface final_wrap(GapTrial trial, WrapWork& work) {
+  work.report.gap = work.sizes.gap;
+  if (trial.alpha > work.sizes.edge) return wrap_without_openings(trial, work);
+  if (work.sizes.edge > trial.alpha) return wrapped(work.soup, work.sizes.edge, work.sizes.offset, work, work.while_wrapping());
+  return std::move(trial.wrap);
+}
+
+/// Assigns the patches, cuts out the half, and checks the result.
+TriMesh proved_mesh(const FittedWrap& fitted, WrapWork& work) {
+  TriMesh mesh = finished_mesh(fitted, work.input.mesh);
+  if (work.is_half()) mesh = cut_half(mesh, work.input, work.sizes, work.report, work.context);
+  if (!is_automatic(work.options.split_angle)) split_patches(mesh, work.options.split_angle, work.context);
+  if (!work.is_half()) prove_wrap(mesh, work.report, work.context.part("prove", k_measure_end, 1.0));
+  return mesh;
+}
+
+void report_result(const TriMesh& mesh, WrapWork& work) {
+  work.report.n_components = connected_components(mesh, Topology(mesh, work.context)).count;
+  work.report.n_triangles = static_cast<std::int64_t>(mesh.n_triangles());
+  work.report.n_vertices = static_cast<std::int64_t>(mesh.n_vertices());
+  for (const std::string& message : work.report.messages) work.context.info("wrap: " + message);
+  work.context.progress(1.0);
+}
+
 }  // namespace
 
 WrapEstimate estimate_wrap(double area, double length, const WrapOptions& options) {
@@ -279,131 +454,16 @@ WrapEstimate estimate_wrap(double area, double length, const WrapOptions& option
 }
 
 WrapResult wrap_surface(const std::vector<SurfaceSoup>& soups, const WrapOptions& options, const RunContext& context) {
-  WrapResult result;
-  WrapReport& report = result.report;
-  WrapInput input = read_wrap_input(soups, options, report, context);
-  WrapSizes sizes = choose_sizes(input.area, input.length, options);
-  check_sizes(input, sizes, options);
-  const bool is_inside = sizes.is_fluid_inside = options.fluid == "inside";
-  if (options.half == "automatic" && !is_inside) mirror_half(input, sizes.gap, report, context);
-  if (!input.half_axis.empty()) find_lines(input, options.features);
-  report.edge = sizes.edge;
-  report.gap = sizes.gap;
-  report.tolerance = sizes.tolerance;
-  report.offset = sizes.offset;
-  report.expected_triangles = expected_triangles(input.area, sizes.edge);
-  report.n_feature_edges = static_cast<std::int64_t>(input.lines.size());
-  context.info("wrap: edge " + short_number(sizes.edge) + " m, gap " + short_number(sizes.gap) + " m, tolerance " + short_number(sizes.tolerance) +
-               " m; about " + std::to_string(report.expected_triangles) + " triangles expected");
-  context.progress(k_read_end);
-
-  AlphaWrapInput soup;
-  WrapSurface wrap;
-  const auto wrap_with = [&](double alpha, double offset, const RunContext& part) {
-    soup.alpha = alpha;
-    soup.offset = offset;
-    soup.max_points = 2 * static_cast<std::int64_t>(options.max_triangles);
-    soup.expected_points = expected_triangles(input.area, alpha) / 2;
-    wrap = alpha_wrap(soup, part);
-    if (sizes.is_fluid_inside)
-      for (auto& t : wrap.triangles) std::swap(t[1], t[2]);
-    if (wrap.triangles.empty())
-      throw Error({.code = ErrorCode::geometry_failed,
-                   .attempted = "wrapping",
-                   .problem = "alpha = " + short_number(alpha) + " m yields an empty wrap",
-                   .hint = "a smaller edge or gap"});
-  };
-  soup = alpha_input(input);
-  if (is_inside) soup.seeds = {find_seed(input, sizes.edge, context)};
-  const RunContext close_part = context.part("close", k_read_end, k_close_end), wrap_part = context.part("wrap", k_close_end, k_wrap_end);
-  std::vector<double> gaps{sizes.gap};
-  if (is_automatic(options.gap) && !is_inside)
-    while (gaps.back() <= k_widest_gap * input.length) gaps.push_back(2.0 * gaps.back());
-  std::vector<GapTrial> trials;
-  const auto turn_by = [&](const GapTrial& trial) {
-    const double offset = trial.alpha > sizes.edge ? coarse_offset(sizes) : sizes.offset;
-    turn_parts(input, wrap_mesh(trial.wrap.points, trial.wrap.triangles), 2.0 * offset + sizes.tolerance, context);
-  };
-  const auto try_gap = [&](double gap) {
-    sizes.gap = gap;
-    const bool is_coarse = !is_inside && gap > k_gap_of_edge * sizes.edge;
-    const double alpha = is_coarse ? 0.5 * gap : sizes.edge;
-    wrap_with(alpha, is_coarse ? coarse_offset(sizes) : sizes.offset, is_coarse ? close_part : wrap_part);
-    trials.push_back({gap, alpha, std::move(wrap), 0.0});
-    turn_by(trials.back());
-    if (gaps.size() > 1) trials.back().leaking = leaking_share(input, trials.back().wrap, 0.25 * alpha, context);
-    return trials.back().leaking;
-  };
-  // A wrap costs four times as much as the wrap for the next wider gap. If there are openings wider than the first gap, gaps are therefore tried from the
-  // widest one down until one leaks. Otherwise they are tried from the first one upwards while they leak.
-  if (gaps.size() > 1 && widest_opening(input) > gaps.front()) {
-    double least = std::numeric_limits<double>::infinity();
-    for (auto gap = gaps.rbegin(); gap != gaps.rend(); ++gap) {
-      const double leaking = try_gap(*gap);
-      if (leaking >= leaking_limit(least)) break;
-      least = std::min(least, leaking);
-    }
-    std::reverse(trials.begin(), trials.end());
-  } else {
-    for (const double gap : gaps)
-      if (try_gap(gap) < k_leaking_share) break;
-  }
-  const std::size_t chosen = least_gap(trials);
-  GapTrial& trial = trials[chosen];
-  sizes.gap = trial.gap;
-  if (trials.size() > 1) turn_by(trial);
-  if (gaps.size() > 1) report_gap(trials, chosen, input.length, report);
-  if (const double area = area_of(trial.wrap); is_automatic(options.edge) && area > k_both_sides * input.area) {
-    const double gap = sizes.gap;
-    sizes = choose_sizes(area, input.length, options);
-    sizes.gap = std::max(gap, k_gap_of_edge * sizes.edge);
-    sizes.is_fluid_inside = is_inside;
-    report.edge = sizes.edge;
-    report.tolerance = sizes.tolerance;
-    report.offset = sizes.offset;
-    report.expected_triangles = expected_triangles(area, sizes.edge);
-    report.messages.push_back("the wrap, including both sides of sheets and closed openings, has " + short_number(area) + " m^2, the input " +
-                              short_number(input.area) + " m^2: the edge is set to " + short_number(sizes.edge) + " m");
-  }
-  if (trial.alpha > sizes.edge) {
-    // First only the facets that the input nearly encloses are used, so that grooves keep their depth. If the leaking fraction is then larger than with a ball
-    // of half the gap, all facets closed by that ball are used.
-    const double most = std::max(k_leaking_share, trial.leaking + k_leaking_share);
-    const double glance = k_glance_ball * sizes.edge;
-    std::string closed;
-    for (const double least_winding : {k_closing, -k_unbounded}) {
-      soup = alpha_input(input);
-      closed = close_openings(input, sizes, trial.wrap, least_winding, soup, context);
-      const bool is_first = least_winding == k_closing;
-      // Openings that remain and are wider than the larger ball are detected with a sixteenth of the points of the final wrap.
-      if (is_first && glance < trial.alpha) {
-        wrap_with(glance, k_coarse_offset * glance, close_part);
-        if (leaking_share(input, wrap, 0.25 * glance, context) >= most) continue;
-      }
-      wrap_with(sizes.edge, sizes.offset, wrap_part);
-      if (!is_first || leaking_share(input, wrap, 0.25 * sizes.edge, context) < most) break;
-    }
-    if (!closed.empty()) report.messages.push_back(std::move(closed));
-  } else if (sizes.edge > trial.alpha) {
-    wrap_with(sizes.edge, sizes.offset, wrap_part);
-  } else {
-    wrap = std::move(trial.wrap);
-  }
-  report.gap = sizes.gap;
-  const InputSurface surface(input, context);
-  const FittedWrap fitted = fit_wrap(wrap, surface, sizes, options.features, context.part("fit", k_wrap_end, k_fit_end));
-  measure_wrap(fitted, surface, sizes, report, context.part("measure", k_fit_end, k_measure_end));
-
-  result.mesh = finished_mesh(fitted, input.mesh);
-  if (!input.half_axis.empty()) result.mesh = cut_half(result.mesh, input, sizes, report, context);
-  if (!is_automatic(options.split_angle)) split_patches(result.mesh, options.split_angle, context);
-  if (input.half_axis.empty()) prove_wrap(result.mesh, report, context.part("prove", k_measure_end, 1.0));
-  report.n_components = connected_components(result.mesh, Topology(result.mesh, context)).count;
-  report.n_triangles = static_cast<std::int64_t>(result.mesh.n_triangles());
-  report.n_vertices = static_cast<std::int64_t>(result.mesh.n_vertices());
-  for (const std::string& message : report.messages) context.info("wrap: " + message);
-  context.progress(1.0);
-  return result;
+  WrapWork work = begin_wrap(soups, options, context);
+  GapTrial trial = choose_trial(make_trials(work), work);
+  size_by_area(trial, work);
+  const WrapSurface wrap = final_wrap(std::move(trial), work);
+  const InputSurface surface(work.input, context);
+  const FittedWrap fitted = fit_wrap(wrap, surface, work.sizes, options.features, context.part("fit", k_wrap_end, k_fit_end));
+  measure_wrap(fitted, surface, work.sizes, work.report, context.part("measure", k_fit_end, k_measure_end));
+  TriMesh mesh = proved_mesh(fitted, work);
+  report_result(mesh, work);
+  return {std::move(mesh), std::move(work.report)};
 }
 
 }  // namespace sterna::surfmesh

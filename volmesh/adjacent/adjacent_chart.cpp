@@ -203,7 +203,7 @@ std::optional<AdjacentFrame> plane_of(const AdjacentRegion& region) {
 
 SurfacePtr plane_surface(const AdjacentFrame& frame, const ParameterBox& box) { return std::make_shared<PlanePiece>(frame, box); }
 
-SurfacePtr projected_surface(const AdjacentFrame& frame, const ParameterBox& box, const ConstraintSurface& surface, const TriMesh& original,
+SurfacePtr projected_surface(const AdjacentFrame& frame, const ParameterBox& box, Borrowed<const ConstraintSurface> surface, const TriMesh& original,
                              std::span<const TriangleId> triangles, const RunContext& context) {
   TriMesh flat;
   std::vector<std::array<double, 3>> heights;

@@ -6,6 +6,7 @@
 #include <span>
 #include <vector>
 
+#include "geom/base/borrowed.h"
 #include "geom/base/run_context.h"
 #include "geom/mesh/tri_mesh.h"
 #include "geom/model/surface.h"
@@ -34,8 +35,8 @@ SurfacePtr plane_surface(const AdjacentFrame& frame, const ParameterBox& box);
 
 /// Returns the points of `surface` over the plane of `frame`, along its normal. The first guess comes from the original's triangles; Newton's method improves
 /// it.
-/// \pre no triangle of `original` is steeper than its projection allows; `surface` outlives the result
-SurfacePtr projected_surface(const AdjacentFrame& frame, const ParameterBox& box, const ConstraintSurface& surface, const TriMesh& original,
+/// \pre no triangle of `original` is steeper than its projection allows
+SurfacePtr projected_surface(const AdjacentFrame& frame, const ParameterBox& box, Borrowed<const ConstraintSurface> surface, const TriMesh& original,
                              std::span<const TriangleId> triangles, const RunContext& context);
 
 }  // namespace sterna::volmesh

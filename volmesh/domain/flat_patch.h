@@ -5,6 +5,7 @@
 #include <cmath>
 #include <vector>
 
+#include "geom/base/borrowed.h"
 #include "geom/math/measures.h"
 #include "geom/mesh/tri_mesh.h"
 
@@ -19,10 +20,11 @@ struct FlatFit {
   double distance = 0.0;  ///< m, distance of that vertex
 };
 
-/// The vertices of a patch in ascending order. The mesh must outlive this object.
+/// The vertices of a patch in ascending order.
 class PatchVertices {
  public:
-  PatchVertices(const TriMesh& mesh, PatchId patch) : mesh_(mesh) {
+  PatchVertices(Borrowed<const TriMesh> of, PatchId patch) : mesh_(of) {
+    const TriMesh& mesh = of;
     for (const TriangleId t : mesh.triangles.ids()) {
       if (mesh.triangle_patch[t] != patch) continue;
       const auto [a, b, c] = corners(mesh, t);

@@ -114,13 +114,14 @@ std::int64_t require_clear_input(Collider& collider, const RunContext& context) 
   throw Error(std::move(info));
 }
 
-EnvelopeCertificate certify_envelope(const LayerBase& base, Collider& collider, const EnvelopeShape& envelope, const RunContext& context) {
-  EnvelopeCertificate certificate;
+TestedEnvelope certify_envelope(const LayerBase& base, Collider& collider, const EnvelopeShape& envelope, const RunContext& context) {
+  TestedEnvelope certificate;
   collider.move_top(envelope, context);
   certificate.n_crossings = static_cast<std::int64_t>(collider.crossings(context).size());
   certificate.n_pairs = collider.n_pairs();
   certificate.n_triangles = collider.n_triangles();
   certificate.n_swallowings = static_cast<std::int64_t>(collider.swallowings(envelope).size());
+  certificate.clear = ClearProof(certificate.n_crossings == 0 && certificate.n_swallowings == 0);
 
   const MacroCount macros = parallel_reduce(
       context, base.wall.n_triangles(), MacroCount{},

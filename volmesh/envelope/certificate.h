@@ -4,6 +4,7 @@
 #include <cstdint>
 #include <string>
 
+#include "volmesh/case/clear_proof.h"
 #include "volmesh/envelope/collide.h"
 
 namespace sterna::volmesh {
@@ -39,8 +40,13 @@ struct EnvelopeCertificate {
 /// \throws Error(self_intersection) with locations and geometry if the wall crosses itself or the outer boundary.
 std::int64_t require_clear_input(Collider& collider, const RunContext& context);
 
+/// A certificate as the tests return it, with their proof.
+struct TestedEnvelope : EnvelopeCertificate {
+  ClearProof clear;  ///< given if there are neither crossings nor swallowings
+};
+
 /// Tests the envelope against itself, sides, wall and outer boundary, and tests every macro-element. Counts failures, but does not throw.
-EnvelopeCertificate certify_envelope(const LayerBase& base, Collider& collider, const EnvelopeShape& envelope, const RunContext& context);
+TestedEnvelope certify_envelope(const LayerBase& base, Collider& collider, const EnvelopeShape& envelope, const RunContext& context);
 
 /// \throws Error(envelope_failed) with counts and the worst locations unless all tests have passed
 void require_proved(const EnvelopeCertificate& certificate);

@@ -56,20 +56,20 @@ std::string_view to_string(BoundaryPart part) {
   return "";
 }
 
-Collider::Collider(const LayerBase& base, const TriMesh* outer, const RunContext& context, const OuterLinks* links)
+Collider::Collider(Borrowed<const LayerBase> base, const TriMesh* outer, const RunContext& context, const OuterLinks* links)
     : base_(base),
       outer_(outer),
       links_(links && !links->empty() ? links : nullptr),
-      is_collapsed_(base.wall.n_vertices(), 0),
-      tree_(base.wall, context),
-      wall_(fixed_boxes(base.wall, tree_, context)) {
-  const std::size_t n = base.wall.n_vertices();
+      is_collapsed_(base->wall.n_vertices(), 0),
+      tree_(base->wall, context),
+      wall_(fixed_boxes(base->wall, tree_, context)) {
+  const std::size_t n = base->wall.n_vertices();
   points_.resize(2 * n + (outer ? outer->n_vertices() : 0));
-  parallel_for(context, n, [&](std::size_t i) { points_[i] = points_[n + i] = base.wall.points[VertexId(i)]; });
-  for (std::size_t h = 0; base.topology.n_boundary_halfedges() > 0 && h < base.topology.n_halfedges(); ++h)
-    if (base.topology.is_boundary(HalfedgeId(h))) border_.push_back(HalfedgeId(h));
+  parallel_for(context, n, [&](std::size_t i) { points_[i] = points_[n + i] = base->wall.points[VertexId(i)]; });
+  for (std::size_t h = 0; base->topology.n_boundary_halfedges() > 0 && h < base->topology.n_halfedges(); ++h)
+    if (base->topology.is_boundary(HalfedgeId(h))) border_.push_back(HalfedgeId(h));
   top_.location.resize(tree_.item_at.size());
-  Components components = connected_components(base.wall, base.topology);
+  Components components = connected_components(base->wall, base->topology);
   component_ = std::move(components.component);
   n_components_ = components.count;
   if (!outer) return;

@@ -6,6 +6,7 @@
 #include <cstdint>
 #include <vector>
 
+#include "geom/base/borrowed.h"
 #include "volmesh/envelope/box_pairs.h"
 #include "volmesh/envelope/envelope.h"
 
@@ -40,10 +41,10 @@ struct OuterLinks {
 
 class Collider {
  public:
-  /// `outer` may be null; all arguments must outlive the collider. With `links`, the outer boundary begins at the open boundary of the wall. Outer triangles on
-  /// a constraint surface are then not tested against triangles of top and sides that have a vertex on that surface, because these outer triangles will be
-  /// re-meshed around the layer. Memory: about 150 bytes per wall triangle.
-  Collider(const LayerBase& base, const TriMesh* outer, const RunContext& context, const OuterLinks* links = nullptr);
+  /// `outer` and `links` may be null; the caller keeps both like the base. With `links`, the outer boundary begins at the open boundary of the wall. Outer
+  /// triangles on a constraint surface are then not tested against triangles of top and sides that have a vertex on that surface, because these outer triangles
+  /// will be re-meshed around the layer. Memory: about 150 bytes per wall triangle.
+  Collider(Borrowed<const LayerBase> base, const TriMesh* outer, const RunContext& context, const OuterLinks* links = nullptr);
 
   /// Moves the top to the points of `shape`. With `stretched`, marked vertices move to `stretch` times their height. The cost is small where nothing moved.
   void move_top(const EnvelopeShape& shape, const RunContext& context, double stretch = 1.0, const Column<VertexId, std::uint8_t>* stretched = nullptr);

@@ -30,14 +30,14 @@ std::string_view to_string(HeightLimit limit) {
   return "";
 }
 
-EnvelopeScale::EnvelopeScale(const LayerBase& base, const EnvelopeOptions& options)
-    : base_(&base),
-      demand_(&base.demand),
+EnvelopeScale::EnvelopeScale(Borrowed<const LayerBase> base, const EnvelopeOptions& options)
+    : base_(&base.get()),
+      demand_(&base->demand),
       has_common_growth_(sterna::volmesh::has_common_growth(options)),
       first_height_(options.first_height),
       max_growth_(options.max_growth),
       total_height_(options.total_height),
-      max_thickness_(thickness_limit(options.max_thickness, options.total_height, base.body_length)),
+      max_thickness_(thickness_limit(options.max_thickness, options.total_height, base->body_length)),
       layers_(options.layers) {
   const auto least = [](int n, double h0) { return std::max(h0, k_min_height_share * n * h0); };
   most_layers_ = layers_;
@@ -57,7 +57,7 @@ double EnvelopeScale::requested_height(VertexId v) const { return std::min(unlim
 
 double EnvelopeScale::h_min(VertexId v) const { return k_min_height_share * n(v) * h0(v); }
 
-EnvelopeScale scale_of(const LayerBase& base, const EnvelopeOptions& options) { return {base, options}; }
+EnvelopeScale scale_of(Borrowed<const LayerBase> base, const EnvelopeOptions& options) { return {base, options}; }
 
 double normal_height(const LayerBase& base, const Envelope& envelope, VertexId v) {
   if (base.multi_normal_of(v) != nullptr) return envelope.height[v];

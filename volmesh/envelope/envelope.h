@@ -7,6 +7,7 @@
 #include <type_traits>
 #include <vector>
 
+#include "geom/base/borrowed.h"
 #include "geom/base/columns.h"
 #include "geom/base/ids.h"
 #include "geom/base/vec3.h"
@@ -64,8 +65,7 @@ inline constexpr double k_most_lean = 2.0;
 /// Layer targets at each vertex, and derived values that every step needs. They come from the demand of the base or, if the demand is empty, from the options.
 class EnvelopeScale {
  public:
-  /// `base` must outlive this object.
-  EnvelopeScale(const LayerBase& base, const EnvelopeOptions& options);
+  EnvelopeScale(Borrowed<const LayerBase> base, const EnvelopeOptions& options);
 
   double h0(VertexId v) const { return demand_->is_empty() ? first_height_ : demand_->first_height[v]; }  ///< m, first height
   int n(VertexId v) const { return demand_->is_empty() ? layers_ : demand_->layers[v]; }                  ///< number of layers
@@ -104,7 +104,7 @@ class EnvelopeScale {
   double first_height_, max_growth_, total_height_, max_thickness_, least_height_;
   int layers_, most_layers_;
 };
-EnvelopeScale scale_of(const LayerBase& base, const EnvelopeOptions& options);
+EnvelopeScale scale_of(Borrowed<const LayerBase> base, const EnvelopeOptions& options);
 
 /// Returns the height in metres of the layer at a vertex along its wall normal: h (d . n). The growth law divides this height, so that the first node is at the
 /// distance h0 from the wall for any curvature and inclination of the growth line. If this height is below n h0, the layer is compressed (h0 not met). The

@@ -74,33 +74,33 @@ Cap smallest_cap(std::span<const Vec3> normals) {
   return {axis, worst_cosine_of(normals, axis)};
 }
 
-LayerBase::LayerBase(const TriMesh& mesh, const RunContext& context, Constraints constraints, const OpenedRidges* opened)
+LayerBase::LayerBase(Borrowed<const TriMesh> mesh, const RunContext& context, Constraints constraints, const OpenedRidges* opened)
     : wall(mesh),
       topology(mesh, context),
       body_length(sterna::body_length(mesh)),
       constraint(std::move(constraints.vertex)),
       surfaces(std::move(constraints.surfaces)),
       near(std::move(constraints.near)),
-      unit_normal(mesh.n_triangles()),
-      area(mesh.n_triangles()),
-      vertex_normal(mesh.n_vertices()),
-      visible_direction(mesh.n_vertices()),
-      visibility(mesh.n_vertices()),
-      facet_cosine(mesh.n_vertices()),
-      mean_edge(mesh.n_vertices()),
-      longest_edge(mesh.n_vertices()),
-      layer_edge(mesh.n_vertices()),
-      vertex_area(mesh.n_vertices()),
+      unit_normal(mesh->n_triangles()),
+      area(mesh->n_triangles()),
+      vertex_normal(mesh->n_vertices()),
+      visible_direction(mesh->n_vertices()),
+      visibility(mesh->n_vertices()),
+      facet_cosine(mesh->n_vertices()),
+      mean_edge(mesh->n_vertices()),
+      longest_edge(mesh->n_vertices()),
+      layer_edge(mesh->n_vertices()),
+      vertex_area(mesh->n_vertices()),
       ridges(opened != nullptr && !opened->is_empty() ? opened : nullptr) {
-  if (constraint.empty()) constraint.resize(mesh.n_vertices());
-  parallel_for(context, mesh.n_triangles(), [&](std::size_t i) {
+  if (constraint.empty()) constraint.resize(mesh->n_vertices());
+  parallel_for(context, mesh->n_triangles(), [&](std::size_t i) {
     const TriangleId t(i);
     const auto [a, b, c] = corners(mesh, t);
     const Vec3 n = area_vector(a, b, c);
     area[t] = norm(n);
     unit_normal[t] = normalized(n);
   });
-  parallel_for(context, mesh.n_vertices(), [&](std::size_t i) {
+  parallel_for(context, mesh->n_vertices(), [&](std::size_t i) {
     const VertexId v(i);
     derive({&v, 1});
   });

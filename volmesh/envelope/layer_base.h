@@ -7,6 +7,7 @@
 #include <span>
 #include <vector>
 
+#include "geom/base/borrowed.h"
 #include "geom/base/run_context.h"
 #include "geom/mesh/topology.h"
 #include "geom/mesh/tri_mesh.h"
@@ -23,8 +24,8 @@ double layer_edge_of(double equilateral_edge, double mean_edge);
 
 struct LayerBase {
   /// \pre the wall is manifold, without degenerate triangles, and its normals point into the fluid; there are constraints for the vertices of its open
-  /// boundaries, if any. `wall` and `ridges` (those of the wall; null: none) must outlive this object.
-  LayerBase(const TriMesh& wall, const RunContext& context, Constraints constraints = {}, const OpenedRidges* ridges = nullptr);
+  /// boundaries, if any; `ridges` are those of the wall (null: none), and are kept by the caller like the wall
+  LayerBase(Borrowed<const TriMesh> wall, const RunContext& context, Constraints constraints = {}, const OpenedRidges* ridges = nullptr);
 
   const TriMesh& wall;
   Topology topology;

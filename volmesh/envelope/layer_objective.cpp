@@ -29,10 +29,10 @@ double mirror_share(const LayerBase& base, VertexId v) {
 
 }  // namespace
 
-LayerObjective::LayerObjective(const LayerBase& base, const Envelope& start, const Column<VertexId, double>& h_u, double h_l, double least_quality,
+LayerObjective::LayerObjective(Borrowed<const LayerBase> base, const Envelope& start, const Column<VertexId, double>& h_u, double h_l, double least_quality,
                                const ObjectiveWeights& weights, const RunContext& context, const Column<VertexId, double>& floor)
     : base_(base), weights_(weights), least_quality_(least_quality), h_u_(h_u.raw()) {
-  const std::size_t n = base.wall.n_vertices();
+  const std::size_t n = base->wall.n_vertices();
   h_l_share_.assign(n, 1.0);
   least_length_.assign(n, 0.0);
   is_moving_.assign(n, 0);
@@ -40,35 +40,35 @@ LayerObjective::LayerObjective(const LayerBase& base, const Envelope& start, con
   normal_sum_.assign(n, Vec3{});
   n_incident_.assign(n, 0.0);
   mirror_share_.assign(n, 1.0);
-  is_element_.assign(base.wall.n_triangles(), 0);
-  has_wide_margins_.assign(base.wall.n_triangles(), 1);
+  is_element_.assign(base->wall.n_triangles(), 0);
+  has_wide_margins_.assign(base->wall.n_triangles(), 1);
   const auto stands = [&](TriangleId t) {
-    const TriangleVertices& v = base.wall.triangles[t];
+    const TriangleVertices& v = base->wall.triangles[t];
     return !start.is_collapsed(v[0]) && !start.is_collapsed(v[1]) && !start.is_collapsed(v[2]);
   };
   parallel_for(context, n, [&](std::size_t i) {
     const VertexId v(i);
-    normal_[i] = base.vertex_normal[v];
+    normal_[i] = base->vertex_normal[v];
     mirror_share_[i] = mirror_share(base, v);
-    if (start.is_collapsed(v) || base.constraint[v].freedom == Freedom::fixed || is_tapered(base, start, v)) return;
+    if (start.is_collapsed(v) || base->constraint[v].freedom == Freedom::fixed || is_tapered(base, start, v)) return;
     const double h = dot(start.height[v] * start.direction[v], normal_[i]);
     h_u_[i] = std::max(h_u_[i], h);  // the start must lie within the bounds, so they are extended
     if (!(h > 0.0) || h_u_[i] < k_min_bound_ratio * h_l) return;
     h_l_share_[i] = std::min(h, h_l) / h_u_[i];
     if (!floor.empty()) least_length_[i] = std::min(start.height[v], floor[v]) / h_u_[i];
     is_moving_[i] = 1;
-    for (const HalfedgeId half : base.topology.outgoing(v)) {
+    for (const HalfedgeId half : base->topology.outgoing(v)) {
       const TriangleId t = triangle_of(half);
       if (!stands(t)) {
         is_moving_[i] = 0;  // pyramids and tetrahedra beside collapsed vertices stay unchanged
         return;
       }
-      normal_sum_[i] += base.unit_normal[t];
+      normal_sum_[i] += base->unit_normal[t];
       n_incident_[i] += 1.0;
     }
   });
   parallel_for(context, is_element_.size(), [&](std::size_t i) {
-    const TriangleVertices& v = base.wall.triangles[TriangleId(i)];
+    const TriangleVertices& v = base->wall.triangles[TriangleId(i)];
     is_element_[i] = stands(TriangleId(i)) && (is_moving_[v[0].index()] || is_moving_[v[1].index()] || is_moving_[v[2].index()]);
   });
   const bool has_barrier = weights.top > 0.0 || weights.barrier > 0.0;
@@ -83,7 +83,7 @@ LayerObjective::LayerObjective(const LayerBase& base, const Envelope& start, con
       LayerElement e;
       if (has_wide_margins_[t] || !load(t, y, e) || e.measure() > 0.0) continue;
       is_element_[t] = 0;
-      for (const VertexId v : base.wall.triangles[TriangleId(t)]) is_moving_[v.index()] = 0;
+      for (const VertexId v : base->wall.triangles[TriangleId(t)]) is_moving_[v.index()] = 0;
     }
     folds_ = LayerFolds(base, start, is_moving_, context);
     for (const std::uint32_t v : folds_.drop_infeasible(base, start)) is_moving_[v] = 0;

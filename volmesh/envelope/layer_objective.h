@@ -6,6 +6,7 @@
 #include <cstdint>
 #include <vector>
 
+#include "geom/base/borrowed.h"
 #include "volmesh/envelope/envelope.h"
 #include "volmesh/envelope/layer_element.h"
 #include "volmesh/envelope/layer_folds.h"
@@ -38,8 +39,8 @@ class LayerObjective {
   /// \p h_u and \p h_l are the upper and lower bounds of the normal component of the growth vector, m. Vertices that are collapsed or whose bounds nearly
   /// coincide do not move. No element may get a scaled Jacobian below `least_quality`. \p floor (may be empty) contains lower limits, m, for the lengths of
   /// growth vectors that are longer at the start.
-  /// \pre every macro-element of `start` is valid, unless the weights of f_3 and of the barrier are zero. `base` must outlive this object.
-  LayerObjective(const LayerBase& base, const Envelope& start, const Column<VertexId, double>& h_u, double h_l, double least_quality,
+  /// \pre every macro-element of `start` is valid, unless the weights of f_3 and of the barrier are zero.
+  LayerObjective(Borrowed<const LayerBase> base, const Envelope& start, const Column<VertexId, double>& h_u, double h_l, double least_quality,
                  const ObjectiveWeights& weights, const RunContext& context, const Column<VertexId, double>& floor = {});
 
   std::size_t size() const { return h_u_.size(); }

@@ -31,18 +31,18 @@ struct PaperProblem::Violated {
   std::array<Vec3, 3> gradient;
 };
 
-PaperProblem::PaperProblem(const LayerBase& base, const Envelope& start, const Column<VertexId, double>& h_u, double h_l, double g1_min,
+PaperProblem::PaperProblem(Borrowed<const LayerBase> base, const Envelope& start, const Column<VertexId, double>& h_u, double h_l, double g1_min,
                            const RunContext& context)
-    : base_(base), g1_min_(g1_min), vertex2location_(base.wall.n_vertices(), k_none), upper_(h_u), growth_(base.wall.n_vertices()) {
+    : base_(base), g1_min_(g1_min), vertex2location_(base->wall.n_vertices(), k_none), upper_(h_u), growth_(base->wall.n_vertices()) {
   parallel_for(context, growth_.size(), [&](std::size_t i) { growth_[VertexId(i)] = start.height[VertexId(i)] * start.direction[VertexId(i)]; });
   for (const VertexId v : start.height.ids()) {
-    if (start.is_collapsed(v) || base.constraint[v].freedom == Freedom::fixed || is_tapered(base, start, v)) continue;
-    const auto around = base.topology.outgoing(v);
-    if (std::all_of(around.begin(), around.end(), [&](HalfedgeId h) { return is_standing(start, base.wall.triangles[triangle_of(h)]); }))
+    if (start.is_collapsed(v) || base->constraint[v].freedom == Freedom::fixed || is_tapered(base, start, v)) continue;
+    const auto around = base->topology.outgoing(v);
+    if (std::all_of(around.begin(), around.end(), [&](HalfedgeId h) { return is_standing(start, base->wall.triangles[triangle_of(h)]); }))
       add_location(v, h_u[v], h_l);
   }
-  for (const TriangleId t : base.wall.triangles.ids()) {
-    const TriangleVertices& v = base.wall.triangles[t];
+  for (const TriangleId t : base->wall.triangles.ids()) {
+    const TriangleVertices& v = base->wall.triangles[t];
     if (is_standing(start, v) && (takes_part(v[0]) || takes_part(v[1]) || takes_part(v[2]))) elements_.push_back(t);
   }
 }

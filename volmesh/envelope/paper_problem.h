@@ -6,6 +6,7 @@
 #include <span>
 #include <vector>
 
+#include "geom/base/borrowed.h"
 #include "volmesh/envelope/envelope.h"
 
 namespace sterna::volmesh {
@@ -43,9 +44,9 @@ struct PaperBounds {
 class PaperProblem {
  public:
   /// \p h_u upper bound of the heights along the vertex normals, m, increased to the start's height if that is larger. \p h_l lower bound max(h0, h_min), m. \p
-  /// g1_min g_1,min of eq. (6): fraction of the wall triangle's area that the envelope triangle keeps in projection on the wall. `base` must outlive this
-  /// object.
-  PaperProblem(const LayerBase& base, const Envelope& start, const Column<VertexId, double>& h_u, double h_l, double g1_min, const RunContext& context);
+  /// g1_min g_1,min of eq. (6): fraction of the wall triangle's area that the envelope triangle keeps in projection on the wall.
+  PaperProblem(Borrowed<const LayerBase> base, const Envelope& start, const Column<VertexId, double>& h_u, double h_l, double g1_min,
+               const RunContext& context);
 
   std::size_t n_unknowns() const { return n_unknowns_; }
   std::size_t n_vertices() const { return vertices_.size(); }  ///< n_v of eq. (9)

@@ -197,8 +197,8 @@ ShapeChange difference(const EnvelopeShape& from, const EnvelopeShape& to, const
   return change;
 }
 
-TrialChange::TrialChange(const LayerBase& base, EnvelopeShape& shape, ShapeChange change, const RunContext& context)
-    : base_(base), shape_(shape), context_(context), change_(std::move(change)), is_in_force_(base.wall.n_vertices(), 0), location_(base.wall.n_vertices()) {
+TrialChange::TrialChange(Borrowed<const LayerBase> base, Borrowed<EnvelopeShape> shape, ShapeChange change, const RunContext& context)
+    : base_(base), shape_(shape), context_(context), change_(std::move(change)), is_in_force_(base->wall.n_vertices(), 0), location_(base->wall.n_vertices()) {
   parallel_for(context, change_.vertices.size(), [&](std::size_t i) {
     const VertexId v = change_.vertices[i];
     if (!is_inside(base, v, change_.height[i] * change_.direction[i])) return;

@@ -4,6 +4,7 @@
 
 #include <vector>
 
+#include "geom/base/borrowed.h"
 #include "volmesh/envelope/edge_fold.h"
 #include "volmesh/envelope/envelope.h"
 
@@ -55,8 +56,8 @@ ShapeChange difference(const EnvelopeShape& from, const EnvelopeShape& to, const
 /// A change that is applied at all vertices at which it has not been taken back. The shape is not copied: this object stores the values that are not applied.
 class TrialChange {
  public:
-  /// Applies the change at the vertices where the result is_inside(). `base` and `shape` must outlive this object.
-  TrialChange(const LayerBase& base, EnvelopeShape& shape, ShapeChange change, const RunContext& context);
+  /// Applies the change at the vertices where the result is_inside().
+  TrialChange(Borrowed<const LayerBase> base, Borrowed<EnvelopeShape> shape, ShapeChange change, const RunContext& context);
 
   const Column<VertexId, std::uint8_t>& in_force() const { return is_in_force_; }
   std::vector<VertexId> vertices_in_force() const;
@@ -71,7 +72,7 @@ class TrialChange {
 
   const LayerBase& base_;
   EnvelopeShape& shape_;
-  const RunContext& context_;
+  RunContext context_;
   ShapeChange change_;
   Column<VertexId, std::uint8_t> is_in_force_;
   Column<VertexId, std::uint32_t> location_;  ///< for each vertex its index in the change

@@ -77,7 +77,7 @@ class Improver {
   std::size_t n_fixed_;
   std::size_t n_about_;  ///< number of tetrahedra among which bad ones are searched
   std::vector<Corners>& tets_;
-  const RunContext& context_;
+  RunContext context_;
   std::vector<Vec3> points_;
   std::vector<double> size_weights_;               ///< weight of each vertex; empty if sizes are not limited
   std::vector<LayerFace> layer_faces_;             ///< layer faces of the whole boundary, sorted; empty if sizes are not limited

@@ -75,8 +75,8 @@ void add_finding(InspectReport& report, Finding finding, const std::vector<Trian
   report.findings.insert(std::upper_bound(report.findings.begin(), report.findings.end(), finding, is_before), std::move(finding));
 }
 
-WallMap::WallMap(const TriMesh& surface, const Domain& domain)
-    : wall_(domain.wall), wall2surface_(&domain.wall2surface), vertex_(domain.wall.n_vertices()), n_vertices_(surface.n_vertices()) {
+WallMap::WallMap(const TriMesh& surface, Borrowed<const Domain> domain)
+    : wall_(domain->wall), wall2surface_(&domain->wall2surface), vertex_(domain->wall.n_vertices()), n_vertices_(surface.n_vertices()) {
   for (const TriangleId t : wall_.triangles.ids())
     for (std::size_t k = 0; k < 3; ++k) vertex_[wall_.triangles[t][k]] = surface.triangles[triangle(t)][k];
 }

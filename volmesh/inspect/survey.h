@@ -8,6 +8,7 @@
 #include <utility>
 #include <vector>
 
+#include "geom/base/borrowed.h"
 #include "geom/base/parallel.h"
 #include "geom/math/constants.h"
 #include "geom/mesh/topology.h"
@@ -76,9 +77,8 @@ std::vector<Suspect<Id>> find_suspects(const RunContext& context, std::size_t n,
 class WallMap {
  public:
   /// Identity map, for which the wall is the surface itself.
-  explicit WallMap(const TriMesh& surface) : wall_(surface), n_vertices_(surface.n_vertices()) {}
-  /// `surface` and `domain` must outlive this object.
-  WallMap(const TriMesh& surface, const Domain& domain);
+  explicit WallMap(Borrowed<const TriMesh> surface) : wall_(surface), n_vertices_(surface->n_vertices()) {}
+  WallMap(const TriMesh& surface, Borrowed<const Domain> domain);
 
   TriangleId triangle(TriangleId of_wall) const { return wall2surface_ ? (*wall2surface_)[of_wall] : of_wall; }
   /// Returns values at the wall's vertices as a field on the surface, with NaN at other vertices.

@@ -35,8 +35,8 @@ std::vector<VertexId> dilated(const LayerBase& base, std::vector<VertexId> verti
 
 }  // namespace
 
-Curving::Curving(const LayerBase& base, double target)
-    : base_(base), target_(target), c_t_(base.wall.n_vertices(), target), limit_(base.wall.n_vertices(), target) {}
+Curving::Curving(Borrowed<const LayerBase> base, double target)
+    : base_(base), target_(target), c_t_(base->wall.n_vertices(), target), limit_(base->wall.n_vertices(), target) {}
 
 void Curving::limit(VertexId v, double c_t) {
   for_each_alike(base_, v, [&](VertexId w) {

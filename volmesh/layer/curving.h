@@ -5,6 +5,7 @@
 #include <array>
 #include <vector>
 
+#include "geom/base/borrowed.h"
 #include "volmesh/envelope/layer_base.h"
 
 namespace sterna::volmesh {
@@ -12,7 +13,7 @@ namespace sterna::volmesh {
 class Curving {
  public:
   /// Sets c_t to `target` everywhere.
-  Curving(const LayerBase& base, double target);
+  Curving(Borrowed<const LayerBase> base, double target);
 
   double operator[](VertexId v) const { return c_t_[v]; }
   /// Limits c_t to at most `c_t` at v, from the next call of smooth() on.

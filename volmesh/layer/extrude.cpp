@@ -59,15 +59,15 @@ bool is_certain(const LayerBase& base, std::size_t column, const ColumnLines& li
 
 }  // namespace
 
-Extruder::Extruder(const LayerBase& base, const EnvelopeOptions& envelope_options, const PrismOptions& options, const RunContext& context)
+Extruder::Extruder(Borrowed<const LayerBase> base, const EnvelopeOptions& envelope_options, const PrismOptions& options, const RunContext& context)
     : base_(base),
       envelope_options_(envelope_options),
       scale_(scale_of(base, envelope_options)),
       context_(context),
       curving_(base, options.wall_perpendicularity),
       truncation_(truncation_of(options.truncate)),
-      placed_(base.wall.n_vertices()) {
-  const std::size_t n = base.wall.n_vertices();
+      placed_(base->wall.n_vertices()) {
+  const std::size_t n = base->wall.n_vertices();
   layers_.n_layers = 0;
   for (std::size_t i = 0; i < n; ++i) layers_.n_layers = std::max(layers_.n_layers, scale_.n(VertexId(i)));
   if (is_truncating()) layers_.line_layers.resize(n);
@@ -81,9 +81,9 @@ Extruder::Extruder(const LayerBase& base, const EnvelopeOptions& envelope_option
     n_nodes += static_cast<std::uint64_t>(scale_.n(VertexId(i))) + 1;
   }
   layers_.is_collapsed.resize(n);
-  layers_.base.resize(base.wall.n_triangles());
-  for (const TriangleId t : IdRange<TriangleId>(base.wall.n_triangles())) {
-    const TriangleVertices& v = base.wall.triangles[t];
+  layers_.base.resize(base->wall.n_triangles());
+  for (const TriangleId t : IdRange<TriangleId>(base->wall.n_triangles())) {
+    const TriangleVertices& v = base->wall.triangles[t];
     layers_.base[t.index()] = {v[0].value(), v[1].value(), v[2].value()};
   }
   points_.resize(n_nodes);
@@ -450,7 +450,7 @@ void Extruder::extrude(Envelope& envelope) {
   }
 }
 
-Extrusion Extruder::take() {
+Extrusion Extruder::take() && {
   if (is_truncating()) {
     layers_.n_layers = *std::ranges::max_element(layers_.line_layers);
     if (std::ranges::all_of(layers_.line_layers, [&](int n) { return n == layers_.n_layers; })) layers_.line_layers.clear();
@@ -472,7 +472,7 @@ Extrusion extrude_prisms(const LayerBase& base, const EnvelopeOptions& envelope_
                          const RunContext& context) {
   Extruder extruder(base, envelope_options, options, context);
   extruder.extrude(envelope);
-  return extruder.take();
+  return std::move(extruder).take();
 }
 
 }  // namespace sterna::volmesh

@@ -7,6 +7,7 @@
 #include <optional>
 #include <vector>
 
+#include "geom/base/borrowed.h"
 #include "geom/mesh/hybrid_mesh.h"
 #include "volmesh/case/prism_options.h"
 #include "volmesh/envelope/envelope.h"
@@ -27,7 +28,7 @@ struct Extrusion {
 /// and the columns beside them.
 class Extruder {
  public:
-  Extruder(const LayerBase& base, const EnvelopeOptions& envelope_options, const PrismOptions& options, const RunContext& context);
+  Extruder(Borrowed<const LayerBase> base, const EnvelopeOptions& envelope_options, const PrismOptions& options, const RunContext& context);
 
   /// Extrudes the layer. If truncation is requested, LayerNumbers determines the numbers of layers. LinePlacer places the nodes, with the largest c_t for which
   /// the growth along the growth line is allowed (G8), sides can be cut, and faces are not tilted (OpenFOAM). Columns with an invalid cell (exact tests of cell
@@ -37,8 +38,8 @@ class Extruder {
   /// \post every cell is valid with positive dual sub-volumes; top nodes equal envelope.point() bit-exactly
   /// \throws Error(envelope_failed) if columns are still invalid after 200 rounds
   void extrude(Envelope& envelope);
-  /// Returns the layer of the last extrude(). The object must not be used afterwards.
-  Extrusion take();
+  /// Returns the layer of the last extrude(), and empties the object.
+  Extrusion take() &&;
 
  private:
   using Columns = std::vector<std::size_t>;  ///< numbers of columns (= wall triangles), ascending

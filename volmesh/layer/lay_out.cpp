@@ -29,7 +29,8 @@ Extrusion extrude_clear_of_collisions(const LayerBase& base, const MeshCase& opt
     extruder.extrude(envelope);
     const std::vector<VertexId> repaired = difference(before, envelope, context).vertices;
     const bool is_equal = equalise_partners(base, options.envelope, &collider, envelope, context).empty();
-    if ((repaired.empty() || !retract_collisions(base, options.envelope, collider, envelope, context, &repaired)) && is_equal) return extruder.take();
+    if ((repaired.empty() || !retract_collisions(base, options.envelope, collider, envelope, context, &repaired)) && is_equal)
+      return std::move(extruder).take();
     if (round < k_max_clear_rounds) continue;
     std::vector<VertexId> disturbed = difference(before, envelope, context).vertices;
     for (const VertexId v : disturbed) lower(envelope, v, 0.0, HeightLimit::prism, scale);
@@ -61,8 +62,10 @@ LaidLayer lay_out(LayerDomain& layer_domain, Envelope& envelope, const RunContex
   }
   {
     const StageTimer timer(context, "certificate");
-    laid.certificate = certify_envelope(layer_domain.base, layer_domain.collider, envelope, context);
-    require_proved(laid.certificate);
+    const TestedEnvelope tested = certify_envelope(layer_domain.base, layer_domain.collider, envelope, context);
+    require_proved(tested);
+    laid.certificate = tested;
+    if (!layer_domain.domain.has_borders()) laid.clear = tested.clear;
   }
   laid.report = report_layer(layer_domain.base, layer_domain.options.envelope, envelope, extrusion, &layer_domain.domain.outer, context);
   laid.curving_shares = extrusion.curving_shares;

@@ -26,6 +26,7 @@ struct LaidLayer {
   std::array<std::int64_t, 5> curving_shares{};  ///< as in Extrusion::curving_shares
   LayerReport report;
   EnvelopeCertificate certificate;  ///< passed certificate of the envelope; the layer's cells are not counted yet
+  ClearProof clear;                 ///< proof for `boundary`; not given if patches were re-meshed around the layer
 };
 
 /// Returns the layer below the present envelope. May lower the envelope.

@@ -18,7 +18,8 @@ constexpr double k_flat_curving = 0.23;
 constexpr double k_steepest = 9.9;
 }  // namespace
 
-LinePlacer::LinePlacer(const LayerBase& base, const EnvelopeScale& scale) : base_(base), scale_(scale), t_(static_cast<std::size_t>(scale.most_layers()) + 1) {}
+LinePlacer::LinePlacer(Borrowed<const LayerBase> base, const EnvelopeScale& scale)
+    : base_(base), scale_(scale), t_(static_cast<std::size_t>(scale.most_layers()) + 1) {}
 
 /// Returns the smallest c_t of a growth line that is not straight. With local growth the proportions change in any case.
 double LinePlacer::least_curving(VertexId v, double aside, double height) const {

@@ -3,6 +3,7 @@
 
 #include <vector>
 
+#include "geom/base/borrowed.h"
 #include "volmesh/envelope/envelope.h"
 
 namespace sterna::volmesh {
@@ -13,7 +14,7 @@ namespace sterna::volmesh {
 /// multi-normal fans are straight.
 class LinePlacer {
  public:
-  LinePlacer(const LayerBase& base, const EnvelopeScale& scale);
+  LinePlacer(Borrowed<const LayerBase> base, const EnvelopeScale& scale);
   /// Writes n + 1 nodes, or only the wall point if the vertex is collapsed. Nodes satisfy the vertex's constraint; the last node equals envelope.point()
   /// bit-exactly.
   void place(const Envelope& envelope, VertexId v, int n, double c_t, Point* nodes);

@@ -8,6 +8,7 @@
 #include <utility>
 #include <vector>
 
+#include "geom/base/borrowed.h"
 #include "geom/base/columns.h"
 #include "geom/mesh/hybrid_mesh.h"
 #include "volmesh/layer/assemble.h"
@@ -19,9 +20,9 @@ namespace sterna::volmesh {
 class RenumberedLines {
  public:
   using Line = std::uint32_t;
-  /// \p given must outlive this object; the nodes of its growth lines are the first nodes of the mesh
-  explicit RenumberedLines(const LayerBlock& given) : given_(given) {
-    for (Line line = 0; line < given.n_lines(); ++line) n_before_ = std::max(n_before_, given.top(line).index() + 1);
+  /// \pre the nodes of the growth lines of \p given are the first nodes of the mesh
+  explicit RenumberedLines(Borrowed<const LayerBlock> given) : given_(given) {
+    for (Line line = 0; line < given_.n_lines(); ++line) n_before_ = std::max(n_before_, given_.top(line).index() + 1);
   }
 
   /// Renumbers the nodes of a mesh. append(line, begin, points) adds the nodes of a growth line; begin is the position of its given nodes. Points after the

@@ -20,7 +20,7 @@ Column<VertexId, std::uint8_t> find_trouble(const LayerBase& base, const FillBou
                                             const RunContext& context) {
   Column<VertexId, std::uint8_t> ring(base.wall.n_vertices(), k_far);
   const TetraBoundary top{.points = boundary.points, .triangles = boundary.triangles, .hole_points = {}, .has_baffles = has_baffles};
-  for (const PreflightFinding& finding : preflight(top, {.is_clear = true}, context).findings)
+  for (const PreflightFinding& finding : preflight(top, {.searches_crossings = false}, context).findings)
     for (const std::uint32_t t : finding.triangles)
       if (t < base.wall.n_triangles())
         for (std::size_t k = 0; k < 3; ++k) {  // opened ridges change the order of triangles, and disc cuts add growth lines

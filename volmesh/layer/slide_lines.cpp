@@ -135,7 +135,7 @@ void shift_top(const Vec3& shift, double still, std::vector<Point>& nodes) {
 
 }  // namespace
 
-LineSlider::LineSlider(HybridMesh& layers, FillBoundary& boundary, const ImproveOptions& options, const RunContext& context)
+LineSlider::LineSlider(Borrowed<HybridMesh> layers, Borrowed<FillBoundary> boundary, const ImproveOptions& options, const RunContext& context)
     : mesh_(layers),
       boundary_(boundary),
       limits_(quality_limits(options.improve_min_angle, options.improve_max_angle)),

@@ -7,6 +7,7 @@
 #include <map>
 #include <vector>
 
+#include "geom/base/borrowed.h"
 #include "geom/base/run_context.h"
 #include "geom/mesh/gates.h"
 #include "geom/mesh/hybrid_mesh.h"
@@ -22,8 +23,8 @@ namespace sterna::volmesh {
 /// the growth line follow: the first cell stays bit-exactly the same, and the other cells keep their growth law.
 class LineSlider {
  public:
-  /// \p layers made by assemble_layers(), without tetrahedra; \p boundary is boundary_of(layers). slide() changes both, and both must outlive this object.
-  LineSlider(HybridMesh& layers, FillBoundary& boundary, const ImproveOptions& options, const RunContext& context);
+  /// \p layers made by assemble_layers(), without tetrahedra; \p boundary is boundary_of(layers). slide() changes both.
+  LineSlider(Borrowed<HybridMesh> layers, Borrowed<FillBoundary> boundary, const ImproveOptions& options, const RunContext& context);
 
   /// Makes one round over the growth lines at the worst locations. Each growth line moves to where the costs around it are lower. This is a pattern search with
   /// decreasing steps within `slide_share` of its height (half of it upwards). From the second round on, the range is k_far_reach times larger if a hard limit
@@ -100,7 +101,7 @@ class LineSlider {
   QualityLimits limits_;
   double share_;
   double largest_step_ = 0.0;  ///< largest ratio of the volumes of tetrahedra with a common face; these volumes also determine the weight of the face
-  const RunContext& context_;
+  RunContext context_;
   std::vector<std::uint8_t> is_locked_;  ///< flag of each growth line
   std::vector<Side> sides_;              ///< sides of all columns, sorted
   std::map<Line, Moved> moved_;

@@ -144,8 +144,10 @@ SplitLayer split_layer(const LayerBase& base, const Envelope& envelope, const Tr
   layer.extrusion = extrude_prisms(*layer.base, options.envelope, options.prisms, layer.envelope, context);
   Collider collider(*layer.base, layer.outer.get(), context);
   require_clear_input(collider, context);
-  layer.certificate = certify_envelope(*layer.base, collider, layer.envelope, context);
-  require_proved(layer.certificate);
+  const TestedEnvelope tested = certify_envelope(*layer.base, collider, layer.envelope, context);
+  require_proved(tested);
+  layer.certificate = tested;
+  layer.clear = tested.clear;
   layer.boundary = fill_boundary(*layer.base, layer.extrusion, unlinked(*layer.outer));
   renumber(wall_part, outer_part, node2vertex, tets, context);
   layer.is_filled = is_proven(layer.boundary, tets, context);

@@ -20,6 +20,7 @@ struct SplitLayer {
   Extrusion extrusion;
   FillBoundary boundary;
   EnvelopeCertificate certificate;  ///< passed certificate of the envelope; the layer's cells are not counted yet
+  ClearProof clear;                 ///< proof for `boundary`
   /// True: the tetrahedra are still valid with the present tops; false: heights were lowered because of invalid cells in split columns.
   bool is_filled = false;
 };

@@ -86,9 +86,10 @@ void keep_multi_normals(const LayerBase& base, const EnvelopeScale& scale, std::
 
 }  // namespace
 
-LayerNumbers::LayerNumbers(const LayerBase& base, const EnvelopeScale& scale, const Envelope& envelope, Truncation truncation, const RunContext& context)
+LayerNumbers::LayerNumbers(Borrowed<const LayerBase> base, const EnvelopeScale& scale, const Envelope& envelope, Truncation truncation,
+                           const RunContext& context)
     : base_(base),
-      layers_(base.wall.n_vertices()),
+      layers_(base->wall.n_vertices()),
       least_(layers_.size()),
       thin_from_(layers_.size()),
       requested_(layers_.size()),
@@ -99,14 +100,14 @@ LayerNumbers::LayerNumbers(const LayerBase& base, const EnvelopeScale& scale, co
     const int all = scale.n(v);
     requested_[i] = static_cast<std::uint16_t>(all);
     LineChoice choice{all, all, all + 1};
-    is_fixed_[i] = envelope.is_collapsed(v) || base.topology.outgoing(v).empty();
-    const Truncation own = base.truncation.empty() ? truncation : base.truncation[v];
+    is_fixed_[i] = envelope.is_collapsed(v) || base->topology.outgoing(v).empty();
+    const Truncation own = base->truncation.empty() ? truncation : base->truncation[v];
     if (!is_fixed_[i] && own != Truncation::never) choice = lines.choose(v, own);
     layers_[i] = static_cast<std::uint16_t>(choice.target_layers);
     least_[i] = static_cast<std::uint16_t>(choice.least);
     thin_from_[i] = static_cast<std::uint16_t>(choice.thin_from);
   });
-  if (truncation == Truncation::never && base.truncation.empty()) return;
+  if (truncation == Truncation::never && base->truncation.empty()) return;
   keep_multi_normals(base, scale, least_);
   for (std::size_t i = 0; i < layers_.size(); ++i) layers_[i] = std::max(layers_[i], least_[i]);
   close_downwards();

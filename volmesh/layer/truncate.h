@@ -4,6 +4,7 @@
 #include <cstdint>
 #include <vector>
 
+#include "geom/base/borrowed.h"
 #include "geom/base/run_context.h"
 #include "volmesh/case/truncation.h"
 #include "volmesh/envelope/envelope.h"
@@ -24,10 +25,9 @@ namespace sterna::volmesh {
 /// around them keep all layers. Collapsed growth lines nominally keep all layers, too.
 class LayerNumbers {
  public:
-  /// `base` must outlive this object.
   /// \post the numbers at both ends of an edge differ by at most one, unless a growth line is collapsed; vertices that grow alike have equal numbers; numbers
   /// are at least 1 and at most the requested number
-  LayerNumbers(const LayerBase& base, const EnvelopeScale& scale, const Envelope& envelope, Truncation truncation, const RunContext& context);
+  LayerNumbers(Borrowed<const LayerBase> base, const EnvelopeScale& scale, const Envelope& envelope, Truncation truncation, const RunContext& context);
   const std::vector<std::uint16_t>& layers() const { return layers_; }
   /// Raises the numbers to at least `least`, but at most to the requested number. \post the same as for the constructor
   void raise(const std::vector<std::uint16_t>& least);

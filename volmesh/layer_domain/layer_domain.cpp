@@ -69,7 +69,8 @@ MeshCase validated(const TriMesh& wall, MeshCase options, const RunContext& cont
   return with_automatic_layers(wall, effective_options(with_family_wake(wall, std::move(options), context), context), context);
 }
 
-std::function<double(const Point&)> end_sizes(const MeshCase& options) {
+std::function<double(const Point&)> end_sizes(Borrowed<const MeshCase> borrowed) {
+  const MeshCase& options = borrowed;
   const bool has_max = !is_automatic(options.size.size_max);
   if (options.sources.empty() && !has_max) return {};
   return [&options, has_max](const Point& p) {

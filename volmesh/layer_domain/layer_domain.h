@@ -6,6 +6,7 @@
 #include <span>
 #include <vector>
 
+#include "geom/base/borrowed.h"
 #include "geom/base/run_context.h"
 #include "geom/mesh/tri_mesh.h"
 #include "volmesh/case/mesh_case.h"
@@ -27,8 +28,8 @@ Domain domain_around(const TriMesh& surface, const MeshCase& options, const RunC
 /// Returns the walls with layers, and the layer requirements on them.
 LayerBase base_of(const Domain& domain, const MeshCase& options, const RunContext& context);
 
-/// Returns the edge lengths that the user's sources require on re-meshed patches; empty if no source affects them. `options` must outlive the result.
-std::function<double(const Point&)> end_sizes(const MeshCase& options);
+/// Returns the edge lengths that the user's sources require on re-meshed patches; empty if no source affects them.
+std::function<double(const Point&)> end_sizes(Borrowed<const MeshCase> options);
 
 /// Returns the discs that end on no wall. \p on_walls numbers of the other discs
 std::vector<ActuatorDisc> free_discs(const std::vector<ActuatorDisc>& discs, const std::vector<std::size_t>& on_walls);

@@ -70,7 +70,8 @@ bool is_own_first(const TetraBoundary& boundary, const RunContext& context) {
 }
 
 /// Returns the attempts in order.
-std::vector<LadderRung> rungs_of(const TetraBoundary& boundary, bool has_sizes, const TetraOptions& options, const RunContext& context) {
+std::vector<LadderRung> rungs_of(const TetraBoundary& boundary, bool has_sizes, const TetraOptions& options, SplitPermission splits,
+                                 const RunContext& context) {
   std::vector<LadderRung> rungs = {{EngineKind::hxt}, {EngineKind::tetgen}};
   if (options.engine == "tetgen") std::ranges::reverse(rungs);
   else if (options.engine == "sterna") rungs.insert(rungs.begin(), {EngineKind::sterna});
@@ -88,14 +89,14 @@ std::vector<LadderRung> rungs_of(const TetraBoundary& boundary, bool has_sizes, 
       throw_bad(
           "boundary_splits", "always",
           (options.engine == "hxt" ? "HXT" : "the built-in engine") + std::string(" cannot split the boundary: set engine = \"automatic\" or \"tetgen\""));
-    if (!boundary.may_split)
+    if (splits == SplitPermission::never)
       throw_bad("boundary_splits", "always",
                 "the boundary cannot be split if walls end on other patches, sides are periodic, ridges are opened or there are wake sheets: set "
                 "boundary_splits = \"ladder\"");
     return {{EngineKind::tetgen, SplitMode::quality, options.two_pass}, {EngineKind::hxt}};
   }
   if (options.boundary_splits == "ladder") {
-    if (boundary.may_split && !boundary.has_baffles) {
+    if (splits == SplitPermission::permitted && !boundary.has_baffles) {
       for (LadderRung& rung : rungs)
         if (rung.engine == EngineKind::tetgen && !rung.is_two_pass) rung.splits = SplitMode::leftovers;
       rungs.push_back({EngineKind::tetgen, SplitMode::recovery});
@@ -156,26 +157,26 @@ BoundaryParts checked_parts(const TetraBoundary& boundary, const std::optional<J
       joined ? TetraBoundary{.points = joined->points, .triangles = joined->triangles(), .hole_points = boundary.hole_points} : boundary;
   const auto baffles = joined ? joined->baffles() : std::span<const std::array<std::uint32_t, 3>>();
   check_boundary(closed, context, baffles);
-  if (!boundary.is_clear) judge(seen = preflight(boundary, {}, context), boundary, context);
+  if (!boundary.clear.is_given()) judge(seen = preflight(boundary, {}, context), boundary, context);
   return find_parts(boundary, joined ? &*joined : nullptr, context);
 }
 
 }  // namespace
 
 struct TetraLadder::State {
-  State(const TetraBoundary& of, SizeSupply* size_supply, const TetraOptions& tetra_options, const RunContext& run_context)
+  State(const TetraBoundary& of, SizeSupply* size_supply, const TetraOptions& tetra_options, SplitPermission splits, const RunContext& run_context)
       : boundary(of),
         sizes(size_supply),
         options(tetra_options),
         context(run_context),
-        rungs(rungs_of(of, size_supply != nullptr, tetra_options, run_context)),
+        rungs(rungs_of(of, size_supply != nullptr, tetra_options, splits, run_context)),
         joined(of.has_baffles ? std::optional(join_baffles(of, run_context)) : std::nullopt),
         parts(checked_parts(of, joined, seen, run_context)) {
-    // If the boundary is known to be clear, the preflight check only reports what is difficult for engines. It can run in parallel with the first engine.
-    if (!boundary.is_clear) return;
+    // If the boundary is proved to be clear, the preflight check only reports what is difficult for engines. It can run in parallel with the first engine.
+    if (!boundary.clear.is_given()) return;
     look.emplace(context, [this](const RunContext& side) {
       if (sizes) sizes->wait();  // the check waits, because the engine needs the sizes sooner
-      return preflight(boundary, {.is_clear = true}, side);
+      return preflight(boundary, {.searches_crossings = false}, side);
     });
   }
 
@@ -187,7 +188,7 @@ struct TetraLadder::State {
         context.warn("trying " + text_of(rung));
       }
       EngineOutcome outcome = run(rung, boundary, joined ? &*joined : nullptr, parts, sizes, options, context);
-      if (look) judge(seen = look->take(), boundary, context);
+      if (look) judge(seen = std::move(*look).take(), boundary, context);
       look.reset();
       if (!outcome.result) {
         add(std::move(outcome.failure));
@@ -248,9 +249,9 @@ struct TetraLadder::State {
     throw FillError(std::move(error), is_repeatable, std::move(problems));
   }
 
-  const TetraBoundary& boundary;
+  const TetraBoundary boundary;
   SizeSupply* sizes;
-  const TetraOptions& options;
+  const TetraOptions options;
   RunContext context;
   std::vector<LadderRung> rungs;
   std::size_t next_rung = 0;
@@ -262,10 +263,11 @@ struct TetraLadder::State {
   std::optional<TetraResult> second_best;  ///< a valid result whose refinement got stuck; it is kept until another engine has a result
 };
 
-TetraLadder::TetraLadder(const TetraBoundary& boundary, SizeSupply* sizes, const TetraOptions& options, const RunContext& context)
-    : state_(std::make_unique<State>(boundary, sizes, options, context)) {}
+TetraLadder::TetraLadder(const TetraBoundary& boundary, SizeSupply* sizes, const TetraOptions& options, SplitPermission splits, const RunContext& context)
+    : state_(std::make_unique<State>(boundary, sizes, options, splits, context)) {}
 TetraLadder::~TetraLadder() = default;
 
+ClearProof TetraLadder::proof() const { return state_->boundary.clear.is_given() ? state_->boundary.clear : state_->seen.clear; }
 bool TetraLadder::begins_here() const { return state_->rungs.front().engine == EngineKind::sterna; }
 TetraResult TetraLadder::next() { return state_->next(); }
 
@@ -275,11 +277,11 @@ void TetraLadder::reject(const Error& reason) {
 }
 
 TetraResult fill(const TetraBoundary& boundary, SizeSupply& sizes, const TetraOptions& options, const RunContext& context) {
-  return TetraLadder(boundary, &sizes, options, context).next();
+  return TetraLadder(boundary, &sizes, options, SplitPermission::never, context).next();
 }
 
 TetraResult fill(const TetraBoundary& boundary, const SizeField* size_field, const TetraOptions& options, const RunContext& context) {
-  if (!size_field) return TetraLadder(boundary, nullptr, options, context).next();
+  if (!size_field) return TetraLadder(boundary, nullptr, options, SplitPermission::never, context).next();
   SizeSupply sizes(*size_field);
   return fill(boundary, sizes, options, context);
 }

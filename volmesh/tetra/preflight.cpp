@@ -147,7 +147,7 @@ class Inspector {
     return n;
   }
   bool crosses(std::uint32_t a, std::uint32_t b) const {
-    return !limits_.is_clear && triangles_cross(boundary_.points, boundary_.triangles[a], boundary_.triangles[b]);
+    return limits_.searches_crossings && triangles_cross(boundary_.points, boundary_.triangles[a], boundary_.triangles[b]);
   }
   /// Returns true if q lies entirely on one side of p's plane, farther from it than `margin`.
   static bool is_apart(const std::array<Vec3, 3>& p, const Vec3& normal, const std::array<Vec3, 3>& q, double margin) {
@@ -213,7 +213,7 @@ PreflightReport preflight(const TetraBoundary& boundary, const PreflightLimits& 
   std::vector<Box> boxes(boundary.triangles.size());
   parallel_for(context, boxes.size(), [&](std::size_t t) { boxes[t] = inspector.box_of(static_cast<std::uint32_t>(t)); });
   const BoxTree tree(boxes, context);
-  return parallel_reduce(
+  PreflightReport report = parallel_reduce(
       context, boxes.size(), PreflightReport{},
       [&](std::size_t begin, std::size_t end) {
         Findings findings;
@@ -232,6 +232,8 @@ PreflightReport preflight(const TetraBoundary& boundary, const PreflightLimits& 
         return findings.take();
       },
       joined, k_triangle_chunk);
+  report.clear = ClearProof(limits.searches_crossings && report.count(Trouble::crossing) == 0 && report.count(Trouble::duplicate) == 0);
+  return report;
 }
 
 void add_suspects(const PreflightReport& report, const TetraBoundary& boundary, ErrorInfo& error) {

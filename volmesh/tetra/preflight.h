@@ -27,7 +27,7 @@ struct PreflightLimits {
   double fold_angle = 1.0 * std::numbers::pi / 180.0;  ///< rad, limit of the fold angle
   double sliver = 1e-3;                                ///< limit of the ratio of height to longest edge
   double gap = 0.01;                                   ///< limit of the gap as a fraction of the mean edge of the smaller triangle
-  bool is_clear = false;                               ///< the caller has verified that there are no intersections, so they are not searched
+  bool searches_crossings = true;                      ///< false: only the other kinds of trouble are searched, and there is no proof
 };
 
 struct PreflightFinding {
@@ -39,6 +39,7 @@ struct PreflightFinding {
 struct PreflightReport {
   std::array<std::int64_t, 5> counts{};    ///< number of findings of each kind
   std::vector<PreflightFinding> findings;  ///< the first thousand findings of each kind, in the order of the triangles
+  ClearProof clear = {};                   ///< given if crossings were searched, and there are neither crossings nor duplicates
   std::int64_t count(Trouble trouble) const { return counts[static_cast<std::size_t>(trouble)]; }
 };
 

@@ -6,12 +6,12 @@
 
 namespace sterna::volmesh {
 
-SizeSupply::SizeSupply(const TetraBoundary& boundary, std::span<const SizeSource> sources, const SizeFieldOptions& options, const RunContext& context,
-                       std::function<void(const SizeField&, const RunContext&)> judge)
-    : sources_(sources), options_(options) {
-  making_.emplace(context, [&boundary, sources, options, judge = std::move(judge)](const RunContext& side) {
+SizeSupply::SizeSupply(Borrowed<const TetraBoundary> boundary, Borrowed<const std::vector<SizeSource>> sources, const SizeFieldOptions& options,
+                       const RunContext& context, std::function<void(const SizeField&, const RunContext&)> judge)
+    : sources_(sources.get()), options_(options) {
+  making_.emplace(context, [boundary, sources, options, judge = std::move(judge)](const RunContext& side) {
     const StageTimer timer(side, "tetrahedra/size");
-    SizeField field = build_size_field(boundary, sources, options, side);
+    SizeField field = build_size_field(boundary, sources.get(), options, side);
     if (judge) judge(field, side);
     return field;
   });
@@ -22,7 +22,7 @@ void SizeSupply::wait() const {
 }
 
 const SizeField& SizeSupply::get() {
-  if (!field_) field_ = &made_.emplace(making_->take());
+  if (!field_) field_ = &made_.emplace(std::move(*making_).take());
   return *field_;
 }
 

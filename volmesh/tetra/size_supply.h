@@ -4,20 +4,21 @@
 #include <functional>
 #include <optional>
 #include <span>
+#include <vector>
 
 #include "geom/base/alongside.h"
+#include "geom/base/borrowed.h"
 #include "volmesh/tetra/size_field.h"
 
 namespace sterna::volmesh {
 
 class SizeSupply {
  public:
-  /// Uses a finished field. `field` must outlive this object.
-  explicit SizeSupply(const SizeField& field) : field_(&field) {}
-  /// Starts to build a field (build_size_field) in parallel to the caller. Boundary and sources must outlive this object. \p judge checks the finished field;
-  /// if it throws, get() rethrows the error
-  SizeSupply(const TetraBoundary& boundary, std::span<const SizeSource> sources, const SizeFieldOptions& options, const RunContext& context,
-             std::function<void(const SizeField&, const RunContext&)> judge = {});
+  /// Uses a finished field.
+  explicit SizeSupply(Borrowed<const SizeField> field) : field_(&field.get()) {}
+  /// Starts to build a field (build_size_field) in parallel to the caller. \p judge checks the finished field; if it throws, get() rethrows the error
+  SizeSupply(Borrowed<const TetraBoundary> boundary, Borrowed<const std::vector<SizeSource>> sources, const SizeFieldOptions& options,
+             const RunContext& context, std::function<void(const SizeField&, const RunContext&)> judge = {});
 
   bool is_ready() const { return field_ || making_->is_done(); }
   /// Thread-safe.

@@ -10,6 +10,7 @@
 #include "geom/base/error.h"
 #include "geom/base/run_context.h"
 #include "geom/mesh/tri_mesh.h"
+#include "volmesh/case/clear_proof.h"
 #include "volmesh/case/tetra_options.h"
 #include "volmesh/tetra/boundary_splits.h"
 
@@ -22,17 +23,17 @@ class SizeSupply;
 struct TetraBoundary {
   std::span<const Vec3> points;
   std::span<const std::array<std::uint32_t, 3>> triangles;
-  std::span<const Vec3> hole_points;  ///< one point strictly inside each cavity that is not meshed
-  bool is_clear = false;              ///< the caller has verified that triangles meet only in shared vertices and edges; if false, fill() verifies this
+  std::span<const Vec3> hole_points;                   ///< one point strictly inside each cavity that is not meshed
+  ClearProof clear = {};                               ///< without a proof fill() tests that triangles meet only in shared vertices and edges
   std::span<const std::string> patch_names = {};       ///< patch names for messages; may be missing
   std::span<const std::uint32_t> triangle_patch = {};  ///< index in patch_names for each triangle; empty without patch_names
-  bool may_split = false;  ///< engines may split the triangles, because the caller can apply the splits or reject the result (TetraLadder)
   /// Some triangles lie back to back, as the two sides of sheets without thickness inside the domain (actuator discs). The points of sheets are doubled at each
   /// location, except on boundary edges of the sheet that end free in the domain. There both sides share one point, and every triangle has a corner that is not
   /// shared. Boundary edges of a sheet may also lie on edges of the rest of the boundary, which also has two points at each location there. All triangles
   /// together are closed and manifold by their indices.
   bool has_baffles = false;
-  /// Parts of the boundary are tops of layers on wake sheets. They are wide, flat and fine, and refinement by sterna's own engine may get stuck there.
+  /// Parts of the boundary are tops of layers on wake sheets. They are wide, flat and fine, and refinement by sterna's own engine may get stuck there. The flag
+  /// affects only the choice of the engine.
   bool has_wakes = false;
   std::span<const double> layer_volumes = {};  ///< m^3, volume of the last prism below each triangle; 0 if there is no prism; may be missing
 };
@@ -67,16 +68,21 @@ class FillError : public Error {
   std::shared_ptr<const std::vector<std::string>> failures_;
 };
 
+/// Whether engines may split triangles of the boundary. A caller that permits it can apply the splits or reject the result.
+enum class SplitPermission : std::uint8_t { never, permitted };
+
 /// Successive attempts to fill a boundary, until the caller accepts a result. fill() accepts the first result.
 class TetraLadder {
  public:
-  /// Checks the boundary. The arguments must outlive this object; `sizes` may be null.
+  /// Checks the boundary. `sizes` may be null; the caller keeps it like the data of the boundary.
   /// \throws the errors of fill() for the boundary and the options
-  TetraLadder(const TetraBoundary& boundary, SizeSupply* sizes, const TetraOptions& options, const RunContext& context);
+  TetraLadder(const TetraBoundary& boundary, SizeSupply* sizes, const TetraOptions& options, SplitPermission splits, const RunContext& context);
   ~TetraLadder();
   TetraLadder(const TetraLadder&) = delete;
   TetraLadder& operator=(const TetraLadder&) = delete;
 
+  /// Returns the proof that the boundary is clear: the given one, or that of the check.
+  ClearProof proof() const;
   /// Returns true if the first attempt uses sterna's own engine, which runs on all threads of the caller. The other engines run in a separate process.
   bool begins_here() const;
   /// Returns the next candidate, which is verified. A candidate with splits fills the split boundary.
@@ -104,11 +110,11 @@ class TetraLadder {
 /// boundary is known to be clear, these are searched while the first engine runs.
 ///
 /// Sequence of attempts: if the engine fails in a repeatable way (exit code, signal, failed verification, too many new points), the other engine is tried. Then
-/// TetGen is tried with permission to split triangles of the boundary that it cannot keep (if `boundary_splits` is "ladder", and the boundary may be split).
-/// The few points on edges that TetGen could not remove after recovering the boundary then count as splits, not as a failed verification. With "always" TetGen
-/// comes first, and also splits triangles where this improves tetrahedra. If a time or memory limit of the user is reached, the call ends unless
-/// `fall_back_on_limits` is set. If the engine's default limit of processor time is reached, which is proportional to boundary and sizes, the other engine is
-/// tried; splits follow only with `fall_back_on_limits`. Every step is logged as a warning and stored in the result.
+/// TetGen is tried with permission to split triangles of the boundary that it cannot keep (if `boundary_splits` is "ladder", and the caller of TetraLadder
+/// permits splits). The few points on edges that TetGen could not remove after recovering the boundary then count as splits, not as a failed verification. With
+/// "always" TetGen comes first, and also splits triangles where this improves tetrahedra. If a time or memory limit of the user is reached, the call ends
+/// unless `fall_back_on_limits` is set. If the engine's default limit of processor time is reached, which is proportional to boundary and sizes, the other
+/// engine is tried; splits follow only with `fall_back_on_limits`. Every step is logged as a warning and stored in the result.
 ///
 /// For the engines, sheets are a single layer of facets (tetra_baffles.h). The result is separated into both sides, and no engine may split triangles. With
 /// `two_pass` TetGen comes first and runs twice. The first run makes a coarse mesh without sizes. The second run uses the smaller of the smoothed sizes at its
@@ -116,7 +122,6 @@ class TetraLadder {
 /// \throws FillError if the engines have failed; Error bad_argument (index, coordinate, unused point, repeated or collinear corners), open_surface,
 /// non_manifold_surface, self_intersection, not_orientable for the boundary; tetra_engine_missing; tetra_engine_failed (crash, its own error, time or memory
 /// limit); tetra_result_invalid; cancelled. Errors contain locations if available. After several failures the error of the first is thrown.
-/// \pre !boundary.may_split, because no caller could apply the splits
 TetraResult fill(const TetraBoundary& boundary, const SizeField* size_field, const TetraOptions& options, const RunContext& context);
 /// Fills the boundary. Engines start with the boundary, and wait for the sizes when they need them.
 /// \throws also the errors of building the size field

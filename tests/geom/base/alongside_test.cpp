@@ -25,31 +25,39 @@ std::size_t sum_of_squares(const RunContext& context) {
       std::plus<>{});
 }
 
+/// The result can be taken only from an object that is given up.
+template <class Work>
+concept CanTakeTwice = requires(Work& work) {
+  work.take();
+};
+static_assert(!CanTakeTwice<Alongside<int>>);
+static_assert(!std::is_copy_constructible_v<Alongside<int>>);
+
 TEST(Alongside, GivesTheSameResultForAnyThreadCount) {
   const std::size_t expected = sum_of_squares(RunContext({.threads = 1}));
   for (const int threads : {1, 2, 7}) {
     const RunContext context({.threads = threads});
     Alongside<std::size_t> work(context, sum_of_squares);
     EXPECT_EQ(sum_of_squares(context), expected);  // both at once
-    EXPECT_EQ(work.take(), expected);
+    EXPECT_EQ(std::move(work).take(), expected);
   }
 }
 
 TEST(Alongside, LeavesOneThreadToTheCaller) {
   Alongside<int> work(RunContext({.threads = 4}), [](const RunContext& side) { return side.threads(); });
-  EXPECT_EQ(work.take(), 3);
+  EXPECT_EQ(std::move(work).take(), 3);
 }
 
 TEST(Alongside, MayHaveAllThreads) {
   const RunContext context({.threads = 4});
   Alongside<int> work(context, 4, [](const RunContext& side) { return side.threads() + static_cast<int>(sum_of_squares(side) % 2); });
   const std::size_t own = sum_of_squares(context);
-  EXPECT_EQ(work.take(), 4 + static_cast<int>(own % 2));
+  EXPECT_EQ(std::move(work).take(), 4 + static_cast<int>(own % 2));
 }
 
 TEST(Alongside, ThrowsWhatTheWorkHasThrown) {
   Alongside<int> work(RunContext({.threads = 2}), [](const RunContext&) -> int { throw Error({.code = ErrorCode::bad_argument, .problem = "as wanted"}); });
-  test::expect_error(ErrorCode::bad_argument, "as wanted", [&] { (void)work.take(); });
+  test::expect_error(ErrorCode::bad_argument, "as wanted", [&] { (void)std::move(work).take(); });
 }
 
 TEST(Alongside, IsStoppedWhenItIsNotWanted) {

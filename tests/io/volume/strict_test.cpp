@@ -10,7 +10,12 @@
 #include <limits>
 #include <set>
 
+#include "io/container/chunked_file.h"
 #include "io/file/format_table.h"
+#include "io/input/byte_reader.h"
+#include "io/input/text_scanner.h"
+#include "io/output/cell_sections.h"
+#include "io/output/face_connectivity.h"
 #include "tests/io/volume/volume_tools.h"
 #include "tests/support/data.h"
 #include "tests/support/hybrid_shapes.h"
@@ -23,6 +28,13 @@ namespace {
 
 constexpr double k_mark = 0.785398163397448279;  // a coordinate that can be found again in the bytes of a file
 using test::k_context;
+
+// Readers and views refer to what they read, so they cannot be made of a temporary.
+static_assert(std::is_constructible_v<TextScanner, FileBuffer&> && !std::is_constructible_v<TextScanner, FileBuffer>);
+static_assert(std::is_constructible_v<ByteReader, FileBuffer&> && !std::is_constructible_v<ByteReader, FileBuffer>);
+static_assert(std::is_constructible_v<ChunkedReader, FileBuffer&> && !std::is_constructible_v<ChunkedReader, FileBuffer>);
+static_assert(std::is_constructible_v<CellSections, HybridMesh&> && !std::is_constructible_v<CellSections, HybridMesh>);
+static_assert(std::is_constructible_v<MeshFaces, HybridMesh&, RunContext> && !std::is_constructible_v<MeshFaces, HybridMesh, RunContext>);
 
 /// Formats and extensions, for messages.
 struct Case {

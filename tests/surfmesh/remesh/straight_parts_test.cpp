@@ -9,6 +9,7 @@
 
 #include "geom/mesh/tri_mesh.h"
 #include "surfmesh/remesh/remesh_surface.h"
+#include "surfmesh/remesh/remesher.h"
 #include "tests/support/test_constants.h"
 #include "tests/support/test_shapes.h"
 
@@ -16,6 +17,10 @@ namespace sterna::surfmesh {
 namespace {
 
 using test::k_context;
+
+static_assert(std::is_constructible_v<Remesher, Reference&, RemeshSizes&, RunContext>);
+static_assert(!std::is_constructible_v<Remesher, Reference, RemeshSizes&, RunContext>);
+static_assert(!std::is_constructible_v<Remesher, Reference&, RemeshSizes, RunContext>);
 using test::k_degree;
 using test::k_pi;
 

@@ -23,6 +23,12 @@ namespace {
 
 using test::k_context;
 
+// These refer to their base or wall, so they cannot be made of a temporary.
+static_assert(std::is_constructible_v<LayerBase, TriMesh&, RunContext> && !std::is_constructible_v<LayerBase, TriMesh, RunContext>);
+static_assert(std::is_constructible_v<EnvelopeScale, LayerBase&, EnvelopeOptions> && !std::is_constructible_v<EnvelopeScale, LayerBase, EnvelopeOptions>);
+static_assert(std::is_constructible_v<Collider, LayerBase&, const TriMesh*, RunContext>);
+static_assert(!std::is_constructible_v<Collider, LayerBase, const TriMesh*, RunContext>);
+
 /// Directions along the vertex normals, heights drawn from [0, tallest] with a few collapsed vertices: a tangled envelope.
 EnvelopeShape tangle(const LayerBase& base, double tallest, unsigned seed) {
   std::mt19937 random(seed);

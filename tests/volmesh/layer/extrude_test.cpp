@@ -21,6 +21,14 @@ namespace {
 
 using test::k_context;
 
+/// The layer can be taken only from an extruder that is given up.
+template <class T>
+concept CanTakeTwice = requires(T& extruder) {
+  extruder.take();
+};
+static_assert(!CanTakeTwice<Extruder>);
+static_assert(!std::is_constructible_v<Extruder, LayerBase, EnvelopeOptions, PrismOptions, RunContext>);
+
 EnvelopeOptions layers_of(double h0, int n) {
   EnvelopeOptions options;
   options.first_height = h0;
@@ -259,7 +267,7 @@ TEST(Extrude, SecondCallFollowsEnvelopeLikeFirst) {
   lower(c.envelope, VertexId(51), 0.0, HeightLimit::gap, scale);
   Envelope other = c.envelope;
   extruder.extrude(c.envelope);
-  const Extrusion second = extruder.take();
+  const Extrusion second = std::move(extruder).take();
   const Extrusion first = extrude_prisms(c.base, c.options, options, other, k_context);
   ASSERT_EQ(second.n_straightened, 0) << "else the curving of the first call remains";
   EXPECT_EQ(c.envelope.height, other.height);

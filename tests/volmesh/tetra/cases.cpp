@@ -11,7 +11,9 @@
 
 #include "geom/base/parallel.h"
 #include "geom/math/measures.h"
+#include "tests/support/test_shapes.h"
 #include "volmesh/domain/farfield.h"
+#include "volmesh/tetra/preflight.h"
 
 namespace sterna::test {
 
@@ -25,6 +27,12 @@ double Domain::volume() const {
   CompensatedSum sum;
   for (const auto& t : triangles) sum.add(-tet_volume(points[0], points[t[0]], points[t[1]], points[t[2]]));
   return sum.value();
+}
+
+volmesh::ClearProof proof_of_another_boundary() {
+  Domain domain;
+  domain.add(cube(1));
+  return volmesh::preflight(domain.boundary(), {}, RunContext()).clear;
 }
 
 Domain domain_around(const TriMesh& wall, double farfield_radius) {

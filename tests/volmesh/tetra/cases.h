@@ -18,11 +18,15 @@ struct Domain {
   std::vector<Vec3> points;
   std::vector<std::array<std::uint32_t, 3>> triangles;
   std::vector<Vec3> holes;
-  volmesh::TetraBoundary boundary() const { return {points, triangles, holes}; }
+  volmesh::TetraBoundary boundary() const& { return {points, triangles, holes}; }
+  volmesh::TetraBoundary boundary() const&& = delete;
   void add(const TriMesh& mesh);
   /// Volume of the domain by the divergence theorem, m^3.
   double volume() const;
 };
+
+/// Returns the proof of the pre-flight for a boundary without crossings. A test can give it to a boundary that crosses itself.
+volmesh::ClearProof proof_of_another_boundary();
 
 /// Returns the domain between the unchanged wall and its farfield sphere; cavities are found automatically.
 Domain domain_around(const TriMesh& wall, double farfield_radius = k_automatic);

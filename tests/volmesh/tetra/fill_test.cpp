@@ -15,6 +15,7 @@ using test::domain_around;
 using test::error_info_of;
 using test::expect_tiling;
 using test::inside_out;
+using test::proof_of_another_boundary;
 using test::transformed;
 using testing::HasSubstr;
 
@@ -225,7 +226,7 @@ TEST(Fill, TellsWhereTheBoundaryCrossesItself) {
     EXPECT_LT(norm(error.locations[0].position), 1.2);
     // An engine that receives such input without a check crashes in some of these cases and returns incomplete triangles in others; neither does harm.
     TetraBoundary boundary = domain.boundary();
-    boundary.is_clear = true;
+    boundary.clear = proof_of_another_boundary();
     const ErrorCode code = error_info_of([&] { volmesh::fill(boundary, nullptr, {}, RunContext{}); }).code;
     EXPECT_TRUE(code == ErrorCode::tetra_engine_failed || code == ErrorCode::tetra_result_invalid);
   }

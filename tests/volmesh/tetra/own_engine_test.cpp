@@ -19,6 +19,7 @@ using test::domain_around;
 using test::error_info_of;
 using test::expect_tiling;
 using test::inside_out;
+using test::proof_of_another_boundary;
 using test::transformed;
 using testing::ElementsAre;
 using testing::HasSubstr;
@@ -99,12 +100,12 @@ TEST_F(OwnEngine, NeedsNoHelper) {
 }
 
 TEST_F(OwnEngine, FailedRecoveryIsErrorOfAllEngines) {
-  // Declared free of crossings, but two balls cross: no engine can recover such a boundary.
+  // Two balls cross, and the proof is that of another boundary: no engine can recover such a boundary.
   Domain crossing;
   crossing.add(both(test::sphere(3), transformed(test::sphere(4), 0.7, {0.55, 0.1, 0.4})));
   crossing.add(inside_out(transformed(test::cube(2), 10.0, {-5, -5, -5})));
   TetraBoundary boundary = crossing.boundary();
-  boundary.is_clear = true;
+  boundary.clear = proof_of_another_boundary();
   const RunContext context({.log = [this](LogLevel level, std::string_view text) {
     if (level == LogLevel::warning) warnings_.emplace_back(text);
   }});

@@ -37,6 +37,18 @@ void expect_only(const PreflightReport& report, Trouble trouble, std::int64_t n)
     EXPECT_EQ(report.count(kind), kind == trouble ? n : 0) << to_string(kind);
 }
 
+// Only the check itself proves that a boundary is clear.
+static_assert(!std::is_constructible_v<ClearProof, bool>);
+static_assert(!std::is_aggregate_v<ClearProof>);
+
+TEST(Preflight, ProofFollowsFromSearchedCrossingsAlone) {
+  const Domain clear = domain_of(test::cube(2)), crossing = domain_of(both(test::cube(2), transformed(test::cube(2), 1.0, {0.3, 0.2, 0.1})));
+  EXPECT_TRUE(report_of(clear).clear.is_given());
+  EXPECT_FALSE(report_of(clear, {.searches_crossings = false}).clear.is_given());
+  EXPECT_FALSE(report_of(crossing).clear.is_given());
+  EXPECT_FALSE(ClearProof().is_given());
+}
+
 TEST(Preflight, NothingOnGoodSurfaces) {
   for (const double scale : {1e-30, 1e-6, 1.0, 1e6, 1e30}) {
     for (const double shift : {0.0, 1e3}) {
@@ -59,7 +71,7 @@ TEST(Preflight, CrossingsAreThoseOfTheExactTest) {
       EXPECT_EQ(finding.triangles, crossings.pairs[i++]);
     }
   }
-  EXPECT_EQ(report_of(domain, {.is_clear = true}).count(Trouble::crossing), 0);
+  EXPECT_EQ(report_of(domain, {.searches_crossings = false}).count(Trouble::crossing), 0);
   const ErrorInfo error = test::error_info_of([&] { judge(report, domain.boundary(), RunContext{}); });
   EXPECT_EQ(error.code, ErrorCode::self_intersection);
   EXPECT_EQ(error.n_locations, crossings.total);

@@ -15,6 +15,12 @@ using test::Domain;
 using test::domain_around;
 using test::expect_tiling;
 
+// A supply refers to the field, or to the boundary and the sources.
+static_assert(std::is_constructible_v<SizeSupply, const SizeField&> && !std::is_constructible_v<SizeSupply, SizeField>);
+static_assert(std::is_constructible_v<SizeSupply, TetraBoundary&, std::vector<SizeSource>&, SizeFieldOptions, RunContext>);
+static_assert(!std::is_constructible_v<SizeSupply, TetraBoundary, std::vector<SizeSource>&, SizeFieldOptions, RunContext>);
+static_assert(!std::is_constructible_v<SizeSupply, TetraBoundary&, std::vector<SizeSource>, SizeFieldOptions, RunContext>);
+
 class SizedFill : public testing::TestWithParam<std::string> {
  protected:
   TetraResult fill(const SizeField& sizes, int threads = 1) const {
@@ -93,7 +99,8 @@ TEST_P(SizedFill, ConcurrentSizeSupplyGivesTheSameMesh) {
   for (const int threads : {1, 2}) {
     const RunContext context({.threads = threads});
     const TetraBoundary boundary = domain.boundary();
-    SizeSupply sizes(boundary, {}, {}, context);
+    const std::vector<SizeSource> no_sources;
+    SizeSupply sizes(boundary, no_sources, {}, context);
     const TetraResult result = volmesh::fill(boundary, sizes, {.engine = GetParam()}, context);
     EXPECT_EQ(result.tetrahedra, expected.tetrahedra);
     EXPECT_EQ(result.new_points, expected.new_points);

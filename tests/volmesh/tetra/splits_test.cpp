@@ -92,12 +92,10 @@ class FillWithSplits : public testing::Test {
   /// Tries the engines in turn until `taker` accepts a result with splits; `taker` throws for splits that it cannot handle. Without a `taker` no splits are
   /// allowed.
   TetraResult fill(const TetraOptions& options, const std::function<void(TetraResult&)>& taker) {
-    TetraBoundary boundary = domain_.boundary();
-    boundary.may_split = taker != nullptr;
     const RunContext context({.log = [this](LogLevel level, std::string_view text) {
       if (level == LogLevel::warning) log_ += std::string(text) + "\n";
     }});
-    TetraLadder ladder(boundary, nullptr, options, context);
+    TetraLadder ladder(domain_.boundary(), nullptr, options, taker ? SplitPermission::permitted : SplitPermission::never, context);
     for (;;) {
       TetraResult result = ladder.next();
       if (result.splits.empty()) return result;
