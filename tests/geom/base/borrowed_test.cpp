@@ -22,8 +22,10 @@ static_assert(!std::is_convertible_v<const Words, Borrowed<const Words>>);
 static_assert(!std::is_convertible_v<Words, Borrowed<Words>>);
 static_assert(!std::is_convertible_v<const Words&, Borrowed<Words>>);
 
-static_assert(std::is_constructible_v<StripMesh, std::vector<Vec3>, std::vector<StripTriangle>, StripLimits, TriangleTree&>);
-static_assert(!std::is_constructible_v<StripMesh, std::vector<Vec3>, std::vector<StripTriangle>, StripLimits, TriangleTree>);
+template <class Tree>
+constexpr bool k_is_reference = std::is_constructible_v<StripMesh, Column<VertexId, Vec3>, Column<TriangleId, StripTriangle>, StripLimits, Tree>;
+static_assert(k_is_reference<TriangleTree&>);
+static_assert(!k_is_reference<TriangleTree>);
 
 TEST(Borrowed, RefersToTheObjectOfTheCaller) {
   Words words = {"wing"};
