@@ -135,7 +135,8 @@ struct WrapWork {
   WrapReport report;
   WrapInput input;
   WrapSizes sizes;
-  AlphaWrapInput soup;  ///< the facets as read, and the location from which a tunnel is wrapped
+  AlphaWrapInput soup;       ///< the facets as read, and the location from which a tunnel is wrapped
+  std::vector<double> gaps;  ///< m; the gaps that may be tried, ascending: only the requested one, or the automatic one and its doubles
 
   bool is_half() const { return !input.half_axis.empty(); }
   RunContext while_closing() const { return context.part("close", k_read_end, k_close_end); }
@@ -306,6 +307,9 @@ WrapWork begin_wrap(const std::vector<SurfaceSoup>& soups, const WrapOptions& op
   context.progress(k_read_end);
   work.soup = alpha_input(work.input);
   if (work.sizes.is_fluid_inside) work.soup.seeds = {find_seed(work.input, work.sizes.edge, context)};
+  work.gaps = {work.sizes.gap};
+  if (is_automatic(options.gap) && !work.sizes.is_fluid_inside)
+    while (work.gaps.back() <= k_widest_gap * work.input.length) work.gaps.push_back(2.0 * work.gaps.back());
   return work;
 }
 
@@ -324,14 +328,6 @@ WrapSurface wrapped(AlphaWrapInput& soup, double alpha, double offset, const Wra
                  .problem = "alpha = " + short_number(alpha) + " m yields an empty wrap",
                  .hint = "a smaller edge or gap"});
   return wrap;
-}
-
-/// Returns the gaps that may be tried, ascending: only the requested one, or the automatic one and its doubles.
-std::vector<double> gaps_of(const WrapWork& work) {
-  std::vector<double> gaps{work.sizes.gap};
-  if (is_automatic(work.options.gap) && !work.sizes.is_fluid_inside)
-    while (gaps.back() <= k_widest_gap * work.input.length) gaps.push_back(2.0 * gaps.back());
-  return gaps;
 }
 
 /// Orients the parts of the input by the trial's wrap.
@@ -355,19 +351,18 @@ GapTrial try_gap(double gap, bool is_measured, WrapWork& work) {
 /// Returns the trials, ascending by their gaps. A wrap costs four times as much as the wrap for the next wider gap. If there are openings wider than the first
 /// gap, gaps are therefore tried from the widest one down until one leaks. Otherwise they are tried from the first one upwards while they leak.
 std::vector<GapTrial> make_trials(WrapWork& work) {
-  const std::vector<double> gaps = gaps_of(work);
-  const bool is_measured = gaps.size() > 1;
+  const bool is_measured = work.gaps.size() > 1;
   std::vector<GapTrial> trials;
-  if (is_measured && widest_opening(work.input) > gaps.front()) {
+  if (is_measured && widest_opening(work.input) > work.gaps.front()) {
     double least = std::numeric_limits<double>::infinity();
-    for (auto gap = gaps.rbegin(); gap != gaps.rend(); ++gap) {
+    for (auto gap = work.gaps.rbegin(); gap != work.gaps.rend(); ++gap) {
       const double leaking = trials.emplace_back(try_gap(*gap, is_measured, work)).leaking;
       if (leaking >= leaking_limit(least)) break;
       least = std::min(least, leaking);
     }
     std::reverse(trials.begin(), trials.end());
   } else {
-    for (const double gap : gaps)
+    for (const double gap : work.gaps)
       if (trials.emplace_back(try_gap(gap, is_measured, work)).leaking < k_leaking_share) break;
   }
   return trials;
@@ -378,7 +373,7 @@ GapTrial choose_trial(std::vector<GapTrial> trials, WrapWork& work) {
   const std::size_t chosen = least_gap(trials);
   work.sizes.gap = trials[chosen].gap;
   if (trials.size() > 1) turn_by(trials[chosen], work);
-  if (gaps_of(work).size() > 1) report_gap(trials, chosen, work.input.length, work.report);
+  if (work.gaps.size() > 1) report_gap(trials, chosen, work.input.length, work.report);
   return std::move(trials[chosen]);
 }
 
