@@ -19,14 +19,8 @@ namespace sterna::volmesh {
 class SizeField;
 class SizeSupply;
 
-/// Closed boundary of the domain. The right-hand normals of its triangles point INTO the domain (on the envelope away from the body, on the farfield inwards).
-struct TetraBoundary {
-  std::span<const Vec3> points;
-  std::span<const std::array<std::uint32_t, 3>> triangles;
-  std::span<const Vec3> hole_points;                   ///< one point strictly inside each cavity that is not meshed
-  ClearProof clear = {};                               ///< without a proof fill() tests that triangles meet only in shared vertices and edges
-  std::span<const std::string> patch_names = {};       ///< patch names for messages; may be missing
-  std::span<const std::uint32_t> triangle_patch = {};  ///< index in patch_names for each triangle; empty without patch_names
+/// Properties of a boundary that engines and checks cannot derive from its triangles.
+struct BoundaryTraits {
   /// Some triangles lie back to back, as the two sides of sheets without thickness inside the domain (actuator discs). The points of sheets are doubled at each
   /// location, except on boundary edges of the sheet that end free in the domain. There both sides share one point, and every triangle has a corner that is not
   /// shared. Boundary edges of a sheet may also lie on edges of the rest of the boundary, which also has two points at each location there. All triangles
@@ -35,6 +29,17 @@ struct TetraBoundary {
   /// Parts of the boundary are tops of layers on wake sheets. They are wide, flat and fine, and refinement by sterna's own engine may get stuck there. The flag
   /// affects only the choice of the engine.
   bool has_wakes = false;
+};
+
+/// Closed boundary of the domain. The right-hand normals of its triangles point INTO the domain (on the envelope away from the body, on the farfield inwards).
+struct TetraBoundary {
+  std::span<const Vec3> points;
+  std::span<const std::array<std::uint32_t, 3>> triangles;
+  std::span<const Vec3> hole_points;                   ///< one point strictly inside each cavity that is not meshed
+  ClearProof clear = {};                               ///< without a proof fill() tests that triangles meet only in shared vertices and edges
+  std::span<const std::string> patch_names = {};       ///< patch names for messages; may be missing
+  std::span<const std::uint32_t> triangle_patch = {};  ///< index in patch_names for each triangle; empty without patch_names
+  BoundaryTraits traits = {};
   std::span<const double> layer_volumes = {};  ///< m^3, volume of the last prism below each triangle; 0 if there is no prism; may be missing
 };
 

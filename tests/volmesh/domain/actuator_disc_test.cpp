@@ -119,7 +119,7 @@ CheckReport mesh_of(const TriMesh& wall, const std::vector<ActuatorDisc>& discs,
   std::vector<std::array<std::uint32_t, 3>> triangles;
   for (const TriangleVertices& v : boundary.triangles) triangles.push_back({v[0].value(), v[1].value(), v[2].value()});
   const std::vector<Point> holes = find_cavity_points(wall, k_context);
-  const TetraBoundary domain{.points = points, .triangles = triangles, .hole_points = holes, .has_baffles = !discs.empty()};
+  const TetraBoundary domain{.points = points, .triangles = triangles, .hole_points = holes, .traits = {.has_baffles = !discs.empty()}};
   const SizeField sizes = build_size_field(domain, {}, {}, k_context);
   TetraResult tets = fill(domain, &sizes, {.engine = engine, .try_other_engine = false}, k_context);
   EXPECT_EQ(tets.engine, engine);

@@ -1,4 +1,4 @@
-#include "volmesh/layer/lay_out.h"
+#include "volmesh/lay_out.h"
 
 #include <string>
 #include <utility>

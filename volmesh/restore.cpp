@@ -1,4 +1,4 @@
-// Continues a volume mesh from the values between its steps. All loaded data is verified again.
+// Restores the state of a run before the improvement from a stage that was stored. All data is verified again.
 #include <cstdint>
 #include <string>
 #include <utility>
@@ -6,21 +6,12 @@
 #include "geom/base/error.h"
 #include "volmesh/adjacent/wall_discs.h"
 #include "volmesh/domain/disc_baffles.h"
-#include "volmesh/layer/lay_out.h"
-#include "volmesh/stages.h"
+#include "volmesh/run_steps.h"
 #include "volmesh/tetra/preflight.h"
 #include "volmesh/tetra/verify.h"
 
 namespace sterna::volmesh {
 namespace {
-
-void require_same(std::size_t found, std::size_t expected, const std::string& what) {
-  if (found != expected)
-    throw Error({.code = ErrorCode::bad_argument,
-                 .attempted = "continuing a volume mesh",
-                 .problem = "found " + std::to_string(found) + " " + what + ", expected " + std::to_string(expected),
-                 .hint = "surface, envelope, layers and tetrahedra must come from one run"});
-}
 
 /// Checks that the layer stands on the wall, and that the mesh contains nothing else except the outer boundary.
 void require_layers_on(const Domain& domain, const HybridMesh& layers) {
@@ -44,7 +35,7 @@ void require_layers_on(const Domain& domain, const HybridMesh& layers) {
       "cells and quadrilaterals outside the prism columns");
 }
 
-/// Restores the layer data that make_tetrahedra() had at its end.
+/// Restores the layer data that the step of the tetrahedra had at its end.
 LayerKnowledge reprove(const LayerBase& base, Collider& collider, const Domain& domain, FilledStage& filled, const MeshCase& options,
                        const RunContext& context) {
   require_clear_input(collider, context);
@@ -64,12 +55,7 @@ LayerKnowledge reprove(const LayerBase& base, Collider& collider, const Domain& 
   ClearProof clear = tested.clear;
   if (domain.has_borders()) {
     const FillBoundary boundary = boundary_of(filled.layers);
-    TetraBoundary for_engines{.points = boundary.points,
-                              .triangles = boundary.triangles,
-                              .hole_points = {},
-                              .patch_names = boundary.patch_names,
-                              .triangle_patch = boundary.triangle_patch};
-    for_engines.has_baffles = !options.discs.empty();
+    const TetraBoundary for_engines = engine_boundary(boundary, {}, {}, traits_of(options, domain));
     const PreflightReport report = preflight(for_engines, {}, context);
     judge(report, for_engines, context);
     clear = report.clear;
@@ -82,41 +68,39 @@ LayerKnowledge reprove(const LayerBase& base, Collider& collider, const Domain& 
   LayerProof proof = prove_layer(knowledge.closed ? *knowledge.closed : filled.layers, context);
   require_proved_cells(proof.cells, knowledge.certificate);
   knowledge.check.emplace(std::move(proof.check));
-  if (!filled.split_wall) knowledge.second = second_engine(options, find_cavity_points(domain.bodies, context), clear, !domain.sheets.is_empty());
+  if (!filled.split_wall) knowledge.second = second_engine(options, find_cavity_points(domain.bodies, context), clear, traits_of(options, domain));
   return knowledge;
 }
 
 }  // namespace
 
-void require_envelope_of(const LayerBase& base, const EnvelopeStage& stage) {
-  require_same(stage.envelope.height.size(), base.wall.n_vertices(), "vertices of the envelope");
+void require_same(std::size_t found, std::size_t expected, const std::string& what) {
+  if (found != expected)
+    throw Error({.code = ErrorCode::bad_argument,
+                 .attempted = "continuing a volume mesh",
+                 .problem = "found " + std::to_string(found) + " " + what + ", expected " + std::to_string(expected),
+                 .hint = "surface, envelope, layers and tetrahedra must come from one run"});
 }
 
-EnvelopeStage make_envelope(const TriMesh& wall, const MeshCase& options, const Makers& makers, const RunContext& context) {
-  LayerDomain layer_domain(wall, options, context);
-  return make_envelope(layer_domain, makers, context);
+BoundaryTraits traits_of(const MeshCase& options, const Domain& domain) {
+  return {.has_baffles = !options.discs.empty(), .has_wakes = !domain.sheets.is_empty()};
 }
 
-FilledStage make_tetrahedra(const TriMesh& surface, const EnvelopeStage& envelope, const MeshCase& options, const Makers& makers, const RunContext& context) {
-  LayerKnowledge knowledge;
-  return make_filled(surface, options, makers, {}, envelope, knowledge, context);
-}
-
-VolumeMeshResult finish_mesh(const TriMesh& surface, FilledStage filled, const MeshCase& user_options, const RunContext& context) {
+void restore(MeshRun& run, const RunContext& context) {
+  FilledStage& filled = run.filled;
   const ClosedMultiNormals& closed = filled.envelope.closed;
-  const MeshCase options = validated(surface, with_closed_multi_normals(user_options, closed), context);
+  const MeshCase options = validated(run.surface, with_closed_multi_normals(run.options, closed), context);
   Domain domain;
   if (filled.split_wall) domain.wall = *filled.split_wall;
-  else domain = domain_around(surface, options, context, closed.base_vertices);
+  else domain = domain_around(run.surface, options, context, closed.base_vertices);
   require_same(filled.envelope.envelope.height.size(), domain.wall.n_vertices(), "vertices of the envelope");
   require_layers_on(domain, filled.layers);
   if (!domain.has_borders()) domain.outer = one_sided(outer_of(filled.layers, domain.wall.patches.size()).mesh);
   const LayerBase base = base_of(domain, options, context);
   Collider collider(base, &domain.outer, context, &domain.links);
-  LayerKnowledge knowledge = reprove(base, collider, domain, filled, options, context);
+  run.knowledge = reprove(base, collider, domain, filled, options, context);
   const FillBoundary boundary = boundary_of(filled.layers);
   verify_tetrahedra({.points = boundary.points, .triangles = boundary.triangles, .hole_points = {}}, filled.tets, context);
-  return finish_mesh(std::move(filled), std::move(knowledge), options.improve, context);
 }
 
 }  // namespace sterna::volmesh
