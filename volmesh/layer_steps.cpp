@@ -34,7 +34,7 @@ EnvelopeStage envelope_of(LayerDomain& layer_domain, const Makers& makers, const
   const RunContext part = part_of_run(RunStep::envelope, context);
   require_room(forecast_of(layer_domain), layer_domain.options.limits, context);
   report_slivers(layer_domain.domain.slivers, layer_domain.options.needles, context);
-  const std::vector<WholePart> parts = layer_domain.domain.wall_discs.empty() && !layer_domain.domain.is_opened()
+  const std::vector<WholePart> parts = !layer_domain.domain.needs.has_own_wall
                                            ? whole_parts(layer_domain.domain, layer_domain.options.parts, context)
                                            : std::vector<WholePart>{};  // walls that are cut or opened no longer belong to placed parts
   const auto of_wall = [&] {
@@ -83,8 +83,8 @@ bool repair_for_engines(MeshRun& run, const FillError& error, const RunContext& 
   if (!run.layer_domain || round.n_repairs++ == k_max_boundary_repairs) return false;
   LayerDomain& layer_domain = *run.layer_domain;
   if (!layer_domain.options.tetrahedra.repair_boundary || !error.is_repeatable()) return false;
-  const std::size_t n_changed = repair_envelope(layer_domain.base, run.layer.boundary, traits_of(layer_domain.options, layer_domain.domain),
-                                                error.info().locations, layer_domain.collider, run.envelope.envelope, context)
+  const std::size_t n_changed = repair_envelope(layer_domain.base, run.layer.boundary, layer_domain.domain.needs.traits, error.info().locations,
+                                                layer_domain.collider, run.envelope.envelope, context)
                                     .size();
   if (n_changed == 0) return false;
   context.warn("trying again with the layer lowered and smoothed at " + std::to_string(n_changed) +

@@ -6,6 +6,7 @@
 #include "geom/base/error.h"
 #include "volmesh/adjacent/wall_discs.h"
 #include "volmesh/domain/disc_baffles.h"
+#include "volmesh/features/domain_feature.h"
 #include "volmesh/run_steps.h"
 #include "volmesh/tetra/preflight.h"
 #include "volmesh/tetra/verify.h"
@@ -16,9 +17,9 @@ namespace {
 /// Checks that the layer stands on the wall, and that the mesh contains nothing else except the outer boundary.
 void require_layers_on(const Domain& domain, const HybridMesh& layers) {
   const TriMesh& wall = domain.wall;
-  const bool has_borders = domain.has_borders();
   require_same(layers.layers.n_lines(), wall.n_vertices() + domain.wall_disc_vertices.size(), "growth lines of the layer");
   require_same(layers.layers.n_columns(), wall.n_triangles(), "prism columns of the layer");
+  const bool may_share = domain.needs.remeshes_outer;  // layers end on other patches, whose faces have nodes of the layer
   std::size_t n_wrong = 0, n_layer_nodes = 0;
   for (const TriangleId t : wall.triangles.ids())
     for (std::size_t k = 0; k < 3; ++k) n_wrong += layers.layers.base[t.index()][k] != line_under(domain, t, k) ? 1 : 0;
@@ -28,10 +29,10 @@ void require_layers_on(const Domain& domain, const HybridMesh& layers) {
     n_layer_nodes = layers.layers.top(line).index() + 1;
   }
   for (std::size_t t = wall.n_triangles(); t < layers.boundary_triangles.size(); ++t)
-    for (const NodeId node : layers.boundary_triangles[t].nodes) n_wrong += !has_borders && node.index() < n_layer_nodes ? 1 : 0;
+    for (const NodeId node : layers.boundary_triangles[t].nodes) n_wrong += !may_share && node.index() < n_layer_nodes ? 1 : 0;
   require_same(n_wrong, 0, "growth lines, columns and outer triangles of the layer that are not on the wall and the outer boundary");
   require_same(
-      layers.prisms.size() + layers.pyramids.size() + layers.hexahedra.size() + layers.tetrahedra.size() + (has_borders ? 0 : layers.boundary_quads.size()), 0,
+      layers.prisms.size() + layers.pyramids.size() + layers.hexahedra.size() + layers.tetrahedra.size() + (may_share ? 0 : layers.boundary_quads.size()), 0,
       "cells and quadrilaterals outside the prism columns");
 }
 
@@ -51,24 +52,24 @@ LayerKnowledge reprove(const LayerBase& base, Collider& collider, const Domain& 
   filled.layers.layers = std::move(extrusion.layers);
   filled.layers.points.raw() = std::move(extrusion.points);
   filled.layers.request = layer_request(base, envelope_options, filled.envelope.envelope, filled.layers.layers);
-  open_wall_discs(domain, filled.layers.request);
+  for (const auto& feature : domain.features) feature->label(domain, filled.layers);
   ClearProof clear = tested.clear;
-  if (domain.has_borders()) {
+  if (domain.needs.remeshes_outer) {
     const FillBoundary boundary = boundary_of(filled.layers);
-    const TetraBoundary for_engines = engine_boundary(boundary, {}, {}, traits_of(options, domain));
+    const TetraBoundary for_engines = engine_boundary(boundary, {}, {}, domain.needs.traits);
     const PreflightReport report = preflight(for_engines, {}, context);
     judge(report, for_engines, context);
     clear = report.clear;
   }
-  if (domain.is_opened()) {
+  if (domain.needs.converts_cells) {
     knowledge.boundary = boundary_of(filled.layers);
     knowledge.closed = filled.layers;
-    close_opened(domain, *knowledge.closed, knowledge.boundary);
+    for (const auto& feature : domain.features) feature->finish(domain, *knowledge.closed, knowledge.boundary);
   }
   LayerProof proof = prove_layer(knowledge.closed ? *knowledge.closed : filled.layers, context);
   require_proved_cells(proof.cells, knowledge.certificate);
   knowledge.check.emplace(std::move(proof.check));
-  if (!filled.split_wall) knowledge.second = second_engine(options, find_cavity_points(domain.bodies, context), clear, traits_of(options, domain));
+  if (!filled.split_wall) knowledge.second = second_engine(options, find_cavity_points(domain.bodies, context), clear, domain.needs.traits);
   return knowledge;
 }
 
@@ -82,10 +83,6 @@ void require_same(std::size_t found, std::size_t expected, const std::string& wh
                  .hint = "surface, envelope, layers and tetrahedra must come from one run"});
 }
 
-BoundaryTraits traits_of(const MeshCase& options, const Domain& domain) {
-  return {.has_baffles = !options.discs.empty(), .has_wakes = !domain.sheets.is_empty()};
-}
-
 void restore(MeshRun& run, const RunContext& context) {
   FilledStage& filled = run.filled;
   const ClosedMultiNormals& closed = filled.envelope.closed;
@@ -95,7 +92,7 @@ void restore(MeshRun& run, const RunContext& context) {
   else domain = domain_around(run.surface, options, context, closed.base_vertices);
   require_same(filled.envelope.envelope.height.size(), domain.wall.n_vertices(), "vertices of the envelope");
   require_layers_on(domain, filled.layers);
-  if (!domain.has_borders()) domain.outer = one_sided(outer_of(filled.layers, domain.wall.patches.size()).mesh);
+  if (!domain.needs.remeshes_outer) domain.outer = one_sided(outer_of(filled.layers, domain.wall.patches.size()).mesh);
   const LayerBase base = base_of(domain, options, context);
   Collider collider(base, &domain.outer, context, &domain.links);
   run.knowledge = reprove(base, collider, domain, filled, options, context);

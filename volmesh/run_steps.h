@@ -77,9 +77,6 @@ bool repair_for_engines(MeshRun& run, const FillError& error, const RunContext& 
 /// \throws Error(bad_argument) for parts that do not belong together; the errors of the stages
 void restore(MeshRun& run, const RunContext& context);
 
-/// Returns the traits of the boundary of the tetrahedra.
-BoundaryTraits traits_of(const MeshCase& options, const Domain& domain);
-
 /// Returns the context of a step for its share of the progress.
 RunContext part_of_run(RunStep step, const RunContext& context);
 

@@ -69,19 +69,17 @@ void climb(const LayerDomain& layer_domain, const Envelope& envelope, const Make
 Filling fill_around(const LayerDomain& layer_domain, const Envelope& envelope, const LaidLayer& layer, const Makers& makers, const RunContext& context) {
   const StageTimer timer(context, "tetrahedra");
   Filling filling;
-  // The boundary must stay unchanged if layers end on other patches, if sides are periodic, if ridges are opened, or if wakes have sheets.
-  const bool may_split = layer_domain.base.wall.n_triangles() > 0 && !layer_domain.domain.has_borders() && layer_domain.domain.periodic.empty() &&
-                         !layer_domain.domain.is_opened();
-  const SplitPermission splits = may_split ? SplitPermission::permitted : SplitPermission::never;
-  filling.holes = find_cavity_points(layer_domain.domain.bodies, context);
-  const TetraBoundary domain = engine_boundary(layer.boundary, filling.holes, layer.clear, traits_of(layer_domain.options, layer_domain.domain));
+  const Domain& domain = layer_domain.domain;
+  const SplitPermission splits = domain.wall.n_triangles() > 0 && !domain.needs.keeps_boundary ? SplitPermission::permitted : SplitPermission::never;
+  filling.holes = find_cavity_points(domain.bodies, context);
+  const TetraBoundary boundary = engine_boundary(layer.boundary, filling.holes, layer.clear, domain.needs.traits);
   const CellCounts cells = count_cells(layer.mesh);
   Forecast forecast{.n_triangles = static_cast<double>(layer_domain.base.wall.n_triangles()), .n_prisms = static_cast<double>(cells.total())};
-  SizeSupply sizes(domain, layer_domain.options.sources, layer_domain.options.size, context, [&](const SizeField& field, const RunContext& side) {
+  SizeSupply sizes(boundary, layer_domain.options.sources, layer_domain.options.size, context, [&](const SizeField& field, const RunContext& side) {
     forecast.n_tetrahedra = expected_tetrahedra(field);
     require_room(forecast, layer_domain.options.limits, side);
   });
-  TetraLadder ladder(domain, &sizes, layer_domain.options.tetrahedra, splits, part_of_run(RunStep::tetrahedra, context));
+  TetraLadder ladder(boundary, &sizes, layer_domain.options.tetrahedra, splits, part_of_run(RunStep::tetrahedra, context));
   filling.clear = ladder.proof();
   Alongside<LayerProof> proof(context, ladder.begins_here() ? context.threads() : context.threads() - 1, [&sizes, &layer](const RunContext& side) {
     sizes.wait();  // the verification waits, because the engine needs the sizes sooner
@@ -125,11 +123,11 @@ void store_stage(Filling& filling, MeshRun& run) {
   filled.slivers = run.layer_domain->domain.slivers;
   filled.envelope = std::move(run.envelope);
   filled.is_opened = layer.opened.has_value();
-  if (filled.is_opened) {
+  if (layer.opened) {
     run.knowledge.closed = std::move(layer.mesh);
     run.knowledge.boundary = std::move(layer.boundary);
   }
-  filled.layers = filled.is_opened ? std::move(*layer.opened) : std::move(layer.mesh);
+  filled.layers = layer.opened ? std::move(*layer.opened) : std::move(layer.mesh);
   filled.curving_shares = layer.curving_shares;
   filled.tets = std::move(filling.tets);
   filled.tetra_failures = std::move(run.round.failures);
@@ -145,7 +143,7 @@ void tetrahedra_step(MeshRun& run, const RunContext& context) {
   require_proved_cells(filling.proof->cells, run.layer.certificate);
   run.knowledge = {.report = std::move(run.layer.report), .certificate = std::move(run.layer.certificate), .check = std::move(filling.proof->check)};
   const MeshCase& options = run.layer_domain->options;
-  if (!filling.split) run.knowledge.second = second_engine(options, std::move(filling.holes), filling.clear, traits_of(options, run.layer_domain->domain));
+  if (!filling.split) run.knowledge.second = second_engine(options, std::move(filling.holes), filling.clear, run.layer_domain->domain.needs.traits);
   store_stage(filling, run);
   run.layer = {};
   run.layer_domain.reset();

@@ -96,7 +96,7 @@ std::vector<LadderRung> rungs_of(const TetraBoundary& boundary, bool has_sizes, 
     return {{EngineKind::tetgen, SplitMode::quality, options.two_pass}, {EngineKind::hxt}};
   }
   if (options.boundary_splits == "ladder") {
-    if (splits == SplitPermission::permitted && !boundary.traits.has_baffles) {
+    if (splits == SplitPermission::permitted) {
       for (LadderRung& rung : rungs)
         if (rung.engine == EngineKind::tetgen && !rung.is_two_pass) rung.splits = SplitMode::leftovers;
       rungs.push_back({EngineKind::tetgen, SplitMode::recovery});

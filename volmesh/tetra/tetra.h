@@ -13,23 +13,12 @@
 #include "volmesh/case/clear_proof.h"
 #include "volmesh/case/tetra_options.h"
 #include "volmesh/tetra/boundary_splits.h"
+#include "volmesh/tetra/boundary_traits.h"
 
 namespace sterna::volmesh {
 
 class SizeField;
 class SizeSupply;
-
-/// Properties of a boundary that engines and checks cannot derive from its triangles.
-struct BoundaryTraits {
-  /// Some triangles lie back to back, as the two sides of sheets without thickness inside the domain (actuator discs). The points of sheets are doubled at each
-  /// location, except on boundary edges of the sheet that end free in the domain. There both sides share one point, and every triangle has a corner that is not
-  /// shared. Boundary edges of a sheet may also lie on edges of the rest of the boundary, which also has two points at each location there. All triangles
-  /// together are closed and manifold by their indices.
-  bool has_baffles = false;
-  /// Parts of the boundary are tops of layers on wake sheets. They are wide, flat and fine, and refinement by sterna's own engine may get stuck there. The flag
-  /// affects only the choice of the engine.
-  bool has_wakes = false;
-};
 
 /// Closed boundary of the domain. The right-hand normals of its triangles point INTO the domain (on the envelope away from the body, on the farfield inwards).
 struct TetraBoundary {
@@ -73,7 +62,8 @@ class FillError : public Error {
   std::shared_ptr<const std::vector<std::string>> failures_;
 };
 
-/// Whether engines may split triangles of the boundary. A caller that permits it can apply the splits or reject the result.
+/// Whether engines may split triangles of the boundary. A caller that permits it can apply the splits or reject the result; it does not
+/// permit it for boundaries with baffles.
 enum class SplitPermission : std::uint8_t { never, permitted };
 
 /// Successive attempts to fill a boundary, until the caller accepts a result. fill() accepts the first result.
