@@ -420,17 +420,6 @@ class DomainSplitter {
 
 }  // namespace
 
-void DomainNeeds::add(const DomainNeeds& more) {
-  const auto unite = [](bool& flag, bool other) { flag = flag || other; };
-  const auto& [keeps, remeshes, own, converts, traits_of_more] = more;
-  unite(keeps_boundary, keeps);
-  unite(remeshes_outer, remeshes);
-  unite(has_own_wall, own);
-  unite(converts_cells, converts);
-  unite(traits.has_baffles, traits_of_more.has_baffles);
-  unite(traits.has_wakes, traits_of_more.has_wakes);
-}
-
 Domain split_domain(const TriMesh& surface, const Column<PatchId, std::uint8_t>& has_layer, const RunContext& context,
                     std::span<const PeriodicPatches> periodic) {
   return DomainSplitter(surface, has_layer, periodic, context).split();

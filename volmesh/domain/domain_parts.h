@@ -69,7 +69,14 @@ struct DomainNeeds {
   bool converts_cells = false;  ///< wall vertices have several growth lines, and DomainFeature::finish() converts the layer to the given wall
   BoundaryTraits traits;        ///< traits of the boundary of the tetrahedra
   /// Adds what another feature requires.
-  void add(const DomainNeeds& more);
+  void add(const DomainNeeds& more) {
+    keeps_boundary |= more.keeps_boundary;
+    remeshes_outer |= more.remeshes_outer;
+    has_own_wall |= more.has_own_wall;
+    converts_cells |= more.converts_cells;
+    traits.has_baffles |= more.traits.has_baffles;
+    traits.has_wakes |= more.traits.has_wakes;
+  }
 };
 
 class DomainFeature;

@@ -59,15 +59,6 @@ class DomainFeature {
   virtual void finish(const Domain& /*domain*/, HybridMesh& /*layer*/, FillBoundary& /*boundary*/) const {}
 };
 
-/// A function that makes a feature; null if the case does not request it.
-using FeatureMaker = std::shared_ptr<DomainFeature> (*)(const MeshCase& options);
-std::shared_ptr<DomainFeature> sliver_splitting(const MeshCase& options);
-std::shared_ptr<DomainFeature> wake_sheets(const MeshCase& options);
-std::shared_ptr<DomainFeature> actuator_discs(const MeshCase& options);
-std::shared_ptr<DomainFeature> periodic_joints(const MeshCase& options);
-std::shared_ptr<DomainFeature> layer_edges(const MeshCase& options);
-std::shared_ptr<DomainFeature> ridge_fans(const MeshCase& options);
-
 /// Returns the features that the case requests, in their fixed order.
 std::vector<std::shared_ptr<DomainFeature>> domain_features(const MeshCase& options);
 /// Checks that features and options can be combined. \throws Error(bad_argument)
