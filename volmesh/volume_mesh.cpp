@@ -36,6 +36,7 @@ constexpr std::array<StepRow, 7> k_steps = {{
     {joining_step, "assemble"},
     {proof_step, "check", 0.0, 1.1, 2.4},
 }};
+static_assert(k_steps.size() == static_cast<std::size_t>(RunStep::proof) + 1);
 
 /// Returns the fractions of the total time at which the steps end.
 std::array<double, k_steps.size()> step_ends(int threads) {
