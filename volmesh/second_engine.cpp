@@ -68,10 +68,6 @@ void count_growth(std::span<const Vec3> boundary, const TetraResult& tets, doubl
     }
 }
 
-TetraBoundary improved_boundary(const FillBoundary& boundary) {
-  return {.points = boundary.points, .triangles = boundary.triangles, .hole_points = {}, .layer_volumes = boundary.layer_volumes};
-}
-
 std::string described(const HardMisses& misses) {
   return std::to_string(misses.n()) + " items beyond the hard limits, dihedral angles " + number_text(k_degrees * misses.smallest, 3) + " to " +
          number_text(k_degrees * misses.largest, 4) + " deg" + (misses.n_growth > 0 ? ", volume ratio " + number_text(misses.growth, 3) : "");
@@ -93,14 +89,7 @@ std::optional<TetraResult> fill_again(const FillBoundary& boundary, const Second
   options.engine = engine;
   options.try_other_engine = false;
   options.boundary_splits = "never";
-  TetraBoundary domain{.points = boundary.points,
-                       .triangles = boundary.triangles,
-                       .hole_points = second.holes,
-                       .clear = second.clear,
-                       .patch_names = boundary.patch_names,
-                       .triangle_patch = boundary.triangle_patch};
-  domain.has_baffles = second.has_baffles;
-  domain.has_wakes = second.has_wakes;
+  const TetraBoundary domain = engine_boundary(boundary, second.holes, second.clear, second.traits);
   SizeSupply sizes(domain, second.sources, second.sizes, context);
   try {
     return fill(domain, sizes, options, context);
@@ -111,6 +100,10 @@ std::optional<TetraResult> fill_again(const FillBoundary& boundary, const Second
 }
 
 }  // namespace
+
+SecondEngine second_engine(const MeshCase& options, std::vector<Vec3> holes, ClearProof clear, BoundaryTraits traits) {
+  return {.tetrahedra = options.tetrahedra, .sources = options.sources, .sizes = options.size, .holes = std::move(holes), .clear = clear, .traits = traits};
+}
 
 HardMisses hard_misses(const TetraBoundary& boundary, const TetraResult& tets, const ImproveOptions& options, const RunContext& context) {
   const GateTable gates;
@@ -128,7 +121,7 @@ HardMisses hard_misses(const TetraBoundary& boundary, const TetraResult& tets, c
 std::string choose_engine(const FillBoundary& boundary, const SecondEngine& second, const ImproveOptions& options, const std::vector<std::string>& failures,
                           TetraResult& tets, ImproveReport& report, const RunContext& context) {
   if (!may_use(second, tets, failures)) return {};
-  const TetraBoundary domain = improved_boundary(boundary);
+  const TetraBoundary domain = improvement_boundary(boundary);
   const HardMisses first = hard_misses(domain, tets, options, context);
   if (first.n() == 0) return {};
   const std::string other = tets.engine == "sterna" ? "hxt" : "sterna";

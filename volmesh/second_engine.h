@@ -20,9 +20,10 @@ struct SecondEngine {
   SizeFieldOptions sizes;
   std::vector<Vec3> holes;  ///< these members as in TetraBoundary
   ClearProof clear;
-  bool has_baffles = false;
-  bool has_wakes = false;
+  BoundaryTraits traits;
 };
+/// Returns the input of the case for another engine. \p clear proof for the boundary
+SecondEngine second_engine(const MeshCase& options, std::vector<Vec3> holes, ClearProof clear, BoundaryTraits traits);
 
 /// Tetrahedra beyond the hard limits of gates G14 and G15.
 struct HardMisses {

@@ -1,5 +1,4 @@
-// The steps of volume_mesh() as separate functions. The result of each step holds all data that later steps need, so that a run can be stopped after any step,
-// written, and continued to a bit-identical mesh.
+// The stages at which a run of volume_mesh() can be stopped, written, and continued to a bit-identical mesh. A stage holds all data that later steps need.
 #pragma once
 
 #include <array>
@@ -9,10 +8,8 @@
 #include <string>
 #include <vector>
 
+#include "volmesh/case/mesh_case.h"
 #include "volmesh/envelope/envelope.h"
-#include "volmesh/layer/assemble.h"
-#include "volmesh/layer_domain/layer_domain.h"
-#include "volmesh/second_engine.h"
 #include "volmesh/tetra/tetra.h"
 #include "volmesh/volume_mesh.h"
 
@@ -46,7 +43,7 @@ struct FilledStage {
   bool is_opened = false;  ///< ridges are opened or wakes have sheets; finish_mesh() then converts `layers` to cells of the given wall
 };
 
-/// Observer callbacks at the ends of the steps of volume_mesh(). Any of them may be empty.
+/// Observer callbacks at the ends of the stages of volume_mesh(). Any of them may be empty.
 struct StageWatch {
   /// Returns the envelope for this wall and these options. It is computed by the argument or loaded from elsewhere. It is verified in either case.
   std::function<EnvelopeStage(const std::function<EnvelopeStage()>&)> envelope;
@@ -54,48 +51,24 @@ struct StageWatch {
   std::function<void(const FilledStage&)> filled;
 };
 
-/// Runs volume_mesh() with observer callbacks.
-VolumeMeshResult volume_mesh(const TriMesh& wall, const MeshCase& options, const Makers& makers, const StageWatch& watch, const RunContext& context);
+/// Runs volume_mesh() with callbacks.
+VolumeMeshResult watched_volume_mesh(const TriMesh& wall, const MeshCase& options, const Makers& makers, const StageWatch& watch, const RunContext& context);
 
-/// Runs the first step.
+/// Runs the steps to the envelope.
 /// \pre the precondition of volume_mesh()
 /// \throws the errors of volume_mesh()
 EnvelopeStage make_envelope(const TriMesh& wall, const MeshCase& options, const Makers& makers, const RunContext& context);
-/// Runs the second step. All data of the envelope is verified again first. If multi-normal fans have no valid cells, they are closed and the first step is
-/// repeated.
+/// Runs the steps to the tetrahedra with this envelope, all data of which is verified again. If multi-normal fans have no valid cells, they are closed, and
+/// envelopes are made as for volume_mesh().
 /// \pre `envelope` was returned by make_envelope() for this wall
 /// \throws Error(bad_argument) for an envelope of another size; the errors of the stages
 FilledStage make_tetrahedra(const TriMesh& wall, const EnvelopeStage& envelope, const MeshCase& options, const Makers& makers, const RunContext& context);
-/// Runs the last step: improves the tetrahedra, joins them with the layer, and checks the mesh. The data of the stage is verified again. Options of earlier
-/// steps affect only the report and the tetrahedra of a second engine (second_engine.h). \throws Error(bad_argument) for parts that do not belong together; the
-/// errors of the stages
+/// Runs the last steps: improves the tetrahedra, joins them with the layer, and checks the mesh. The data of the stage is verified again first. Options of
+/// earlier steps affect only the report and the tetrahedra of a second engine (second_engine.h). \throws Error(bad_argument) for parts that do not belong
+/// together; the errors of the stages
 VolumeMeshResult finish_mesh(const TriMesh& wall, FilledStage filled, const MeshCase& options, const RunContext& context);
 
-// ---- The same steps for a driver that avoids repeated verification ------------------------------------------------------------------------
-
-/// Data about a layer that its mesh does not contain.
-struct LayerKnowledge {
-  LayerReport report;
-  EnvelopeCertificate certificate;
-  std::optional<LayerCheck> check;
-  std::optional<HybridMesh> closed;         ///< cells of the given wall for a layer on an opened wall
-  FillBoundary boundary;                    ///< boundary that the tetrahedra fill around `closed`
-  std::optional<SecondEngine> second = {};  ///< set if another engine may fill the boundary, too
-};
-
-/// Runs the first two steps. If there is a given envelope, starts from it.
-FilledStage make_filled(const TriMesh& wall, const MeshCase& options, const Makers& makers, const StageWatch& watch, std::optional<EnvelopeStage> envelope,
-                        LayerKnowledge& knowledge, const RunContext& context);
 /// Returns the case with the known state of its ridges. After the largest number of failed rounds no ridge is opened.
 MeshCase with_closed_multi_normals(MeshCase options, const ClosedMultiNormals& closed);
-EnvelopeStage make_envelope(LayerDomain& layer_domain, const Makers& makers, const RunContext& context);
-/// Makes the layer below the envelope, which may be lowered for this, and the tetrahedra around the layer. \throws Error(bad_argument) for an envelope of
-/// another size
-FilledStage make_tetrahedra(LayerDomain& layer_domain, EnvelopeStage envelope, const Makers& makers, LayerKnowledge& knowledge, const RunContext& context);
-/// \throws Error(bad_argument) if an envelope does not have exactly one height for each vertex
-void require_envelope_of(const LayerBase& base, const EnvelopeStage& stage);
-/// \p clear proof for the boundary that the engine will fill
-SecondEngine second_engine(const MeshCase& options, std::vector<Point> holes, ClearProof clear, bool has_wakes);
-VolumeMeshResult finish_mesh(FilledStage filled, LayerKnowledge knowledge, const ImproveOptions& options, const RunContext& context);
 
 }  // namespace sterna::volmesh

@@ -108,7 +108,7 @@ volmesh::VolumeMeshResult cached_finish(const SurfaceValue& wall, const volmesh:
 
 volmesh::VolumeMeshResult cached_volume_mesh(const SurfaceValue& wall, const volmesh::MeshCase& options, const volmesh::StageWatch& watch, const Reuse& reuse,
                                              const RunContext& context) {
-  if (!reuse.cache && !reuse.reference) return volmesh::volume_mesh(wall.mesh, options, makers_of(wall, options, reuse), watch, context);
+  if (!reuse.cache && !reuse.reference) return volmesh::watched_volume_mesh(wall.mesh, options, makers_of(wall, options, reuse), watch, context);
   volmesh::StageWatch with_envelope = watch;
   with_envelope.envelope = [&](const std::function<volmesh::EnvelopeStage()>& make) {
     const std::optional<ContentKey> key = reuse.cache ? std::optional(envelope_key(wall.mesh, options, context)) : std::nullopt;
@@ -118,7 +118,7 @@ volmesh::VolumeMeshResult cached_volume_mesh(const SurfaceValue& wall, const vol
       return stage;
     });
   };
-  const auto make = [&] { return volmesh::volume_mesh(wall.mesh, options, makers_of(wall, options, reuse), with_envelope, context); };
+  const auto make = [&] { return volmesh::watched_volume_mesh(wall.mesh, options, makers_of(wall, options, reuse), with_envelope, context); };
   if (watch.enveloped || watch.filled) return make();
   const std::optional<ContentKey> true_surface = true_surface_key(wall);
   std::optional<ContentKey> key;

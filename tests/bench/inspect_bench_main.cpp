@@ -14,6 +14,7 @@
 #include "io/file/surface_file.h"
 #include "surfmesh/stitch/stitch_surface.h"
 #include "volmesh/inspect/inspect.h"
+#include "volmesh/layer_domain/layer_domain.h"
 #include "volmesh/stages.h"
 
 namespace {
@@ -35,9 +36,9 @@ Seconds timed(const std::function<void()>& f) {
 
 /// Area shares of the finished envelope, counted as in the report of a mesh.
 void print_envelope(const TriMesh& wall, const MeshCase& options, const InspectReport& report, const std::string& name, const RunContext& context) {
-  LayerDomain layer_domain(wall, options, context);
+  const LayerDomain layer_domain(wall, options, context);
   EnvelopeStage stage;
-  const Seconds seconds = timed([&] { stage = make_envelope(layer_domain, {}, context); });
+  const Seconds seconds = timed([&] { stage = make_envelope(wall, options, {}, context); });
   const EnvelopeScale scale = scale_of(layer_domain.base, layer_domain.options.envelope);
   double all = 0.0, full = 0.0, compressed = 0.0, collapsed = 0.0;
   for (const VertexId v : layer_domain.base.wall.points.ids()) {

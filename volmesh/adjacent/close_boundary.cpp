@@ -368,7 +368,7 @@ ClosedOuter unlinked(TriMesh outer) {
 
 ClosedOuter close_boundary(const Domain& domain, const LayerBase& base, const EnvelopeShape& envelope, const CloseBoundaryOptions& options,
                            const RunContext& context) {
-  if (!domain.has_borders()) return unlinked(domain.outer);
+  if (domain.border.empty() && domain.wall_discs.empty()) return unlinked(domain.outer);
   return Closer(domain, base, envelope, options, context).close();
 }
 

@@ -286,7 +286,6 @@ Column<VertexId, std::uint8_t> find_border(const TriMesh& baffle, const std::vec
 }  // namespace
 
 TriMesh with_discs(TriMesh outer, const TriMesh& walls, const std::vector<ActuatorDisc>& discs, double growth, const RunContext& context) {
-  if (discs.empty()) return outer;
   require_own_names(discs, outer.patches, walls.patches);
   TriMesh so_far = outer;
   append(so_far, walls);
@@ -335,7 +334,5 @@ TriMesh one_sided(TriMesh outer) {
   outer.triangle_patch = std::move(patches);
   return outer;
 }
-
-bool has_baffles(const TriMesh& outer) { return !find_baffle_sides(outer).empty(); }
 
 }  // namespace sterna::volmesh

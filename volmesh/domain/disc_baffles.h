@@ -52,7 +52,5 @@ TriMesh with_second_sides(TriMesh outer, const std::vector<ActuatorDisc>& discs)
 /// Removes triangles that lie back to back with triangles of a smaller number. Their vertices and patches stay. In a mesh made by with_second_sides() these
 /// triangles are the last ones.
 TriMesh one_sided(TriMesh outer);
-/// Returns true if triangles of patches of kind interface lie back to back.
-bool has_baffles(const TriMesh& outer);
 
 }  // namespace sterna::volmesh

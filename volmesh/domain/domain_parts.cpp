@@ -98,8 +98,10 @@ class DomainSplitter {
     find_parts();
     find_border();
     keep_periodic();
-    if (!domain_.border.empty()) hold_border();
-    if (!domain_.border.empty()) link();
+    if (!domain_.border.empty()) {
+      hold_border();
+      link();
+    }
     domain_.wall = std::move(wall_.mesh);
     domain_.outer = std::move(outer_.mesh);
     domain_.wall2surface = std::move(wall_.part2surface);

@@ -4,6 +4,7 @@
 
 #include <array>
 #include <cstdint>
+#include <memory>
 #include <span>
 #include <string>
 #include <vector>
@@ -17,6 +18,7 @@
 #include "volmesh/envelope/constraint.h"
 #include "volmesh/envelope/doubled_sheets.h"
 #include "volmesh/envelope/opened_ridges.h"
+#include "volmesh/tetra/boundary_traits.h"
 
 namespace sterna::volmesh {
 
@@ -59,6 +61,26 @@ struct WallDisc {
   std::int32_t surface = -1;       ///< number of the surface of the upstream side in Domain::constraints.surfaces; the downstream side follows
 };
 
+/// What features require of the steps that follow.
+struct DomainNeeds {
+  bool keeps_boundary = false;  ///< engines must not split triangles of the boundary
+  bool remeshes_outer = false;  ///< the outer boundary is re-meshed around the layer, so the certificate of the envelope does not apply to it
+  bool has_own_wall = false;    ///< the wall is cut or opened, and its parts are no longer placed parts
+  bool converts_cells = false;  ///< wall vertices have several growth lines, and DomainFeature::finish() converts the layer to the given wall
+  BoundaryTraits traits;        ///< traits of the boundary of the tetrahedra
+  /// Adds what another feature requires.
+  void add(const DomainNeeds& more) {
+    keeps_boundary |= more.keeps_boundary;
+    remeshes_outer |= more.remeshes_outer;
+    has_own_wall |= more.has_own_wall;
+    converts_cells |= more.converts_cells;
+    traits.has_baffles |= more.traits.has_baffles;
+    traits.has_wakes |= more.traits.has_wakes;
+  }
+};
+
+class DomainFeature;
+
 struct Domain {
   TriMesh wall;             ///< triangles of patches with layers, in the order of the surface; the mesh is open where the wall ends on other patches
   Constraints constraints;  ///< constraints of the wall's boundary
@@ -89,10 +111,8 @@ struct Domain {
   };
   std::vector<Cavity> cavities;
   TriMesh bodies;  ///< closed parts of the surface except the one that encloses the fluid; cavities are searched in these parts
-  /// Returns true if wall vertices have several growth lines. The layer then does not yet correspond to the given wall.
-  bool is_opened() const { return !ridges.is_empty() || !sheets.is_empty(); }
-  /// Returns true if the outer boundary is re-meshed around the layer.
-  bool has_borders() const { return !border.empty() || !wall_discs.empty(); }
+  std::vector<std::shared_ptr<const DomainFeature>> features;  ///< features in their order; split_domain() adds none
+  DomainNeeds needs;                                           ///< what the features require
 };
 
 /// Splits a closed surface. Vertices of flat adjacent patches are moved into their plane, by at most 1e-6 of the sum of body length and distance to the wall's

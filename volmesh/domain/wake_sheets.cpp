@@ -582,7 +582,6 @@ SheetsOnWall add_wake_sheets(std::span<const WakeSheet> wakes, const Vec3& of_do
   SheetsOnWall made;
   made.sheets.n_given_vertices = wall.n_vertices();
   made.sheets.n_given_triangles = wall.n_triangles();
-  if (wakes.empty()) return made;
   const double raise = raise_for(first_height, wall);
   std::size_t n_chains = 0;
   for (const WakeSheet& wake : wakes) {

@@ -29,6 +29,20 @@ std::vector<double> last_prism_volumes(const LayerBlock& layers, std::span<const
 
 }  // namespace
 
+TetraBoundary engine_boundary(Borrowed<const FillBoundary> boundary, std::span<const Vec3> holes, ClearProof clear, BoundaryTraits traits) {
+  return {.points = boundary->points,
+          .triangles = boundary->triangles,
+          .hole_points = holes,
+          .clear = clear,
+          .patch_names = boundary->patch_names,
+          .triangle_patch = boundary->triangle_patch,
+          .traits = traits};
+}
+
+TetraBoundary improvement_boundary(Borrowed<const FillBoundary> boundary) {
+  return {.points = boundary->points, .triangles = boundary->triangles, .hole_points = {}, .layer_volumes = boundary->layer_volumes};
+}
+
 double last_prism_volume(const LayerBlock& layers, std::span<const Point> points, std::size_t column) {
   if (layers.n_layers == 0 || layers.n_collapsed(column) > 0) return 0.0;
   WedgePoints p;

@@ -3,6 +3,7 @@
 
 #include <span>
 
+#include "geom/base/borrowed.h"
 #include "geom/mesh/hybrid_mesh.h"
 #include "volmesh/adjacent/close_boundary.h"
 #include "volmesh/adjacent/wall_discs.h"
@@ -21,6 +22,11 @@ struct FillBoundary {
   std::vector<double> layer_volumes;          ///< m^3, volume of the last prism below each triangle; 0 where there is no prism
   std::vector<NodeId> point2node;             ///< nodes of the layer first, then nodes of the outer boundary
 };
+/// Returns the boundary for engines. \p holes points in cavities. \p clear proof for the boundary, if there is one
+TetraBoundary engine_boundary(Borrowed<const FillBoundary> boundary, std::span<const Vec3> holes, ClearProof clear, BoundaryTraits traits);
+/// Returns the boundary within which tetrahedra are improved.
+TetraBoundary improvement_boundary(Borrowed<const FillBoundary> boundary);
+
 /// Returns the volume in m^3 of the prism between the last two nodes of each growth line of a column; 0 if a growth line is collapsed.
 double last_prism_volume(const LayerBlock& layers, std::span<const Point> points, std::size_t column);
 FillBoundary fill_boundary(const LayerBase& base, const Extrusion& extrusion, const ClosedOuter& outer);

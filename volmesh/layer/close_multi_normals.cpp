@@ -222,8 +222,6 @@ class MultiNormalCloser {
 
 }  // namespace
 
-void close_multi_normals(const OpenedRidges& ridges, HybridMesh& mesh, FillBoundary& boundary) {
-  if (!ridges.is_empty()) MultiNormalCloser(ridges, mesh, boundary).close();
-}
+void close_multi_normals(const OpenedRidges& ridges, HybridMesh& mesh, FillBoundary& boundary) { MultiNormalCloser(ridges, mesh, boundary).close(); }
 
 }  // namespace sterna::volmesh

@@ -27,7 +27,7 @@ class MultiNormalError : public Error {
 /// to the wall, where the cells around it are pyramids. These cells are explicit. Explicit are also the prisms of wall triangles at growth lines that were
 /// added or have one layer less; all other cells stay in columns. In planes in which the wall ends, boundary faces close the gaps. Nodes: growth lines of the
 /// given vertices, added growth lines, outer boundary, centres.
-/// \pre mesh and boundary were made by assemble_layers() and fill_boundary() on the opened wall, without disc cuts
+/// \pre mesh and boundary were made by assemble_layers() and fill_boundary() on the wall with at least one opened ridge, without disc cuts
 /// \post wall faces equal those of the given wall bit-exactly; every explicit cell is valid by the exact test of its kind, with positive dual sub-volumes.
 /// Points of the boundary keep their numbers. Its triangles are reordered, with triangles on columns first
 /// \throws MultiNormalError if a cell is invalid, or if a growth line of a multi-normal fan is collapsed

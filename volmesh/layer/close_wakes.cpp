@@ -109,8 +109,6 @@ class WakeCloser {
 
 }  // namespace
 
-void close_wakes(const DoubledSheets& sheets, HybridMesh& mesh, FillBoundary& boundary) {
-  if (!sheets.is_empty()) WakeCloser(sheets, mesh, boundary).close();
-}
+void close_wakes(const DoubledSheets& sheets, HybridMesh& mesh, FillBoundary& boundary) { WakeCloser(sheets, mesh, boundary).close(); }
 
 }  // namespace sterna::volmesh

@@ -16,10 +16,10 @@ constexpr std::uint8_t k_rings = 4;  ///< number of rings over which the reducti
 constexpr std::uint8_t k_far = 255;
 
 /// Marks vertices of the layer's top that have a defect as ring 0.
-Column<VertexId, std::uint8_t> find_trouble(const LayerBase& base, const FillBoundary& boundary, bool has_baffles, const std::vector<ErrorLocation>& locations,
-                                            const RunContext& context) {
+Column<VertexId, std::uint8_t> find_trouble(const LayerBase& base, const FillBoundary& boundary, BoundaryTraits traits,
+                                            const std::vector<ErrorLocation>& locations, const RunContext& context) {
   Column<VertexId, std::uint8_t> ring(base.wall.n_vertices(), k_far);
-  const TetraBoundary top{.points = boundary.points, .triangles = boundary.triangles, .hole_points = {}, .has_baffles = has_baffles};
+  const TetraBoundary top{.points = boundary.points, .triangles = boundary.triangles, .hole_points = {}, .traits = traits};
   for (const PreflightFinding& finding : preflight(top, {.searches_crossings = false}, context).findings)
     for (const std::uint32_t t : finding.triangles)
       if (t < base.wall.n_triangles())
@@ -62,9 +62,9 @@ void lower_and_smooth(const LayerBase& base, const Envelope& envelope, VertexId 
 
 }  // namespace
 
-std::vector<VertexId> repair_envelope(const LayerBase& base, const FillBoundary& boundary, bool has_baffles, const std::vector<ErrorLocation>& locations,
+std::vector<VertexId> repair_envelope(const LayerBase& base, const FillBoundary& boundary, BoundaryTraits traits, const std::vector<ErrorLocation>& locations,
                                       Collider& collider, Envelope& envelope, const RunContext& context) {
-  Column<VertexId, std::uint8_t> ring = find_trouble(base, boundary, has_baffles, locations, context);
+  Column<VertexId, std::uint8_t> ring = find_trouble(base, boundary, traits, locations, context);
   number_rings(base, ring);
   EnvelopeShape proposal = envelope;
   for (const VertexId v : ring.ids())

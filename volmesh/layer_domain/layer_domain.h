@@ -1,12 +1,8 @@
 // Layer domain: the wall that carries layers, and the outer boundary, with the data that all steps use. The surface is completed, cut, and split into both.
 #pragma once
 
-#include <cstddef>
-#include <functional>
 #include <span>
-#include <vector>
 
-#include "geom/base/borrowed.h"
 #include "geom/base/run_context.h"
 #include "geom/mesh/tri_mesh.h"
 #include "volmesh/case/mesh_case.h"
@@ -20,19 +16,12 @@ namespace sterna::volmesh {
 /// \throws Error(bad_argument) for missing required options and for inconsistent options; Error(empty_surface)
 MeshCase validated(const TriMesh& wall, MeshCase options, const RunContext& context);
 
-/// Builds the fluid's boundary. It is completed, its sliver triangles are split, it is cut by discs and made periodic, and it is split into walls with layers
-/// and the other patches. Then the ridges of the wall are opened. \p closed vertices of the wall that get no multi-normal fan
-/// \pre the options were returned by validated()
+/// Builds the fluid's boundary. It is completed, changed by the features of the case (features/domain_feature.h), and split into walls with layers and the
+/// other patches, to which features add. \p closed vertices of the wall that get no multi-normal fan \pre the options were returned by validated()
 Domain domain_around(const TriMesh& surface, const MeshCase& options, const RunContext& context, std::span<const VertexId> closed = {});
 
 /// Returns the walls with layers, and the layer requirements on them.
 LayerBase base_of(const Domain& domain, const MeshCase& options, const RunContext& context);
-
-/// Returns the edge lengths that the user's sources require on re-meshed patches; empty if no source affects them.
-std::function<double(const Point&)> end_sizes(Borrowed<const MeshCase> options);
-
-/// Returns the discs that end on no wall. \p on_walls numbers of the other discs
-std::vector<ActuatorDisc> free_discs(const std::vector<ActuatorDisc>& discs, const std::vector<std::size_t>& on_walls);
 
 /// Wall and outer boundary, with the data that all steps use.
 struct LayerDomain {

@@ -82,7 +82,7 @@ std::vector<LadderRung> rungs_of(const TetraBoundary& boundary, bool has_sizes, 
       throw_bad("two_pass", "true\" with engine \"" + options.engine, "only TetGen has two passes: set engine = \"automatic\" or \"tetgen\"");
     rungs = {{EngineKind::tetgen, SplitMode::none, true}, {EngineKind::hxt}};
   }
-  if (boundary.has_baffles && options.boundary_splits == "always")
+  if (boundary.traits.has_baffles && options.boundary_splits == "always")
     throw_bad("boundary_splits", "always", "triangles beside baffles (actuator discs) cannot be split");
   if (options.boundary_splits == "always") {
     if (options.engine == "hxt" || options.engine == "sterna")
@@ -96,7 +96,7 @@ std::vector<LadderRung> rungs_of(const TetraBoundary& boundary, bool has_sizes, 
     return {{EngineKind::tetgen, SplitMode::quality, options.two_pass}, {EngineKind::hxt}};
   }
   if (options.boundary_splits == "ladder") {
-    if (splits == SplitPermission::permitted && !boundary.has_baffles) {
+    if (splits == SplitPermission::permitted) {
       for (LadderRung& rung : rungs)
         if (rung.engine == EngineKind::tetgen && !rung.is_two_pass) rung.splits = SplitMode::leftovers;
       rungs.push_back({EngineKind::tetgen, SplitMode::recovery});
@@ -170,7 +170,7 @@ struct TetraLadder::State {
         options(tetra_options),
         context(run_context),
         rungs(rungs_of(of, size_supply != nullptr, tetra_options, splits, run_context)),
-        joined(of.has_baffles ? std::optional(join_baffles(of, run_context)) : std::nullopt),
+        joined(of.traits.has_baffles ? std::optional(join_baffles(of, run_context)) : std::nullopt),
         parts(checked_parts(of, joined, seen, run_context)) {
     // If the boundary is proved to be clear, the preflight check only reports what is difficult for engines. It can run in parallel with the first engine.
     if (!boundary.clear.is_given()) return;
@@ -219,7 +219,7 @@ struct TetraLadder::State {
 
   /// Returns true if another engine should be tried although there is a result, because refinement got stuck.
   bool is_stuck(const LadderRung& rung, const EngineOutcome& outcome) const {
-    return rung.engine == EngineKind::sterna && boundary.has_wakes && outcome.stuck_share > k_most_stuck && options.engine == "automatic" &&
+    return rung.engine == EngineKind::sterna && boundary.traits.has_wakes && outcome.stuck_share > k_most_stuck && options.engine == "automatic" &&
            options.try_other_engine && next_rung + 1 < rungs.size();
   }
 

@@ -202,7 +202,7 @@ std::string_view to_string(Trouble trouble) {
 }
 
 PreflightReport preflight(const TetraBoundary& boundary, const PreflightLimits& limits, const RunContext& context) {
-  if (boundary.has_baffles) {
+  if (boundary.traits.has_baffles) {
     const JoinedBoundary joined = join_baffles(boundary, context);
     PreflightReport report = preflight({.points = joined.points, .triangles = joined.facets, .hole_points = {}}, limits, context);
     for (PreflightFinding& finding : report.findings)

@@ -13,6 +13,7 @@
 #include "volmesh/case/clear_proof.h"
 #include "volmesh/case/tetra_options.h"
 #include "volmesh/tetra/boundary_splits.h"
+#include "volmesh/tetra/boundary_traits.h"
 
 namespace sterna::volmesh {
 
@@ -27,14 +28,7 @@ struct TetraBoundary {
   ClearProof clear = {};                               ///< without a proof fill() tests that triangles meet only in shared vertices and edges
   std::span<const std::string> patch_names = {};       ///< patch names for messages; may be missing
   std::span<const std::uint32_t> triangle_patch = {};  ///< index in patch_names for each triangle; empty without patch_names
-  /// Some triangles lie back to back, as the two sides of sheets without thickness inside the domain (actuator discs). The points of sheets are doubled at each
-  /// location, except on boundary edges of the sheet that end free in the domain. There both sides share one point, and every triangle has a corner that is not
-  /// shared. Boundary edges of a sheet may also lie on edges of the rest of the boundary, which also has two points at each location there. All triangles
-  /// together are closed and manifold by their indices.
-  bool has_baffles = false;
-  /// Parts of the boundary are tops of layers on wake sheets. They are wide, flat and fine, and refinement by sterna's own engine may get stuck there. The flag
-  /// affects only the choice of the engine.
-  bool has_wakes = false;
+  BoundaryTraits traits = {};
   std::span<const double> layer_volumes = {};  ///< m^3, volume of the last prism below each triangle; 0 if there is no prism; may be missing
 };
 
@@ -68,7 +62,8 @@ class FillError : public Error {
   std::shared_ptr<const std::vector<std::string>> failures_;
 };
 
-/// Whether engines may split triangles of the boundary. A caller that permits it can apply the splits or reject the result.
+/// Whether engines may split triangles of the boundary. A caller that permits it can apply the splits or reject the result; it does not
+/// permit it for boundaries with baffles.
 enum class SplitPermission : std::uint8_t { never, permitted };
 
 /// Successive attempts to fill a boundary, until the caller accepts a result. fill() accepts the first result.

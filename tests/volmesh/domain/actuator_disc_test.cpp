@@ -119,7 +119,7 @@ CheckReport mesh_of(const TriMesh& wall, const std::vector<ActuatorDisc>& discs,
   std::vector<std::array<std::uint32_t, 3>> triangles;
   for (const TriangleVertices& v : boundary.triangles) triangles.push_back({v[0].value(), v[1].value(), v[2].value()});
   const std::vector<Point> holes = find_cavity_points(wall, k_context);
-  const TetraBoundary domain{.points = points, .triangles = triangles, .hole_points = holes, .has_baffles = !discs.empty()};
+  const TetraBoundary domain{.points = points, .triangles = triangles, .hole_points = holes, .traits = {.has_baffles = !discs.empty()}};
   const SizeField sizes = build_size_field(domain, {}, {}, k_context);
   TetraResult tets = fill(domain, &sizes, {.engine = engine, .try_other_engine = false}, k_context);
   EXPECT_EQ(tets.engine, engine);
@@ -213,10 +213,10 @@ TEST(ActuatorDisc, OneSidedTakesTheSecondSidesAway) {
   const TriMesh wall = test::sphere(6);
   const std::vector<ActuatorDisc> discs = {{.center = {3, 0, 0}, .radius = 1.0}};
   const TriMesh both = with_second_sides(with_discs(wall, {}, discs, k_growth, k_context), discs);
-  EXPECT_TRUE(has_baffles(both));
+  EXPECT_FALSE(find_baffle_sides(both).empty());
   EXPECT_EQ(Topology(both, k_context).n_boundary_halfedges(), 0u);
   const TriMesh one = one_sided(both);
-  EXPECT_FALSE(has_baffles(one));
+  EXPECT_TRUE(find_baffle_sides(one).empty());
   EXPECT_EQ(2 * (one.n_triangles() - wall.n_triangles()), both.n_triangles() - wall.n_triangles());
   for (const TriangleId t : one.triangles.ids()) EXPECT_EQ(one.triangles[t], both.triangles[t]);
 }

@@ -39,7 +39,7 @@ struct Continued {
 inline Continued expect_continued(const TriMesh& wall, const MeshCase& options) {
   EnvelopeStage envelope;
   FilledStage filled;
-  const VolumeMeshResult whole = volume_mesh(
+  const VolumeMeshResult whole = watched_volume_mesh(
       wall, options, {}, {.enveloped = [&](const EnvelopeStage& stage) { envelope = stage; }, .filled = [&](const FilledStage& stage) { filled = stage; }},
       test::k_context);
   EXPECT_EQ(filled.split_wall.has_value(), whole.n_split_triangles > 0);

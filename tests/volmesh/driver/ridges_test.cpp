@@ -252,7 +252,7 @@ TEST(Ridges, EnvelopesOfDeformedWallsStartFromReference) {
     EXPECT_TRUE(is_started) << warm.objection;
     return is_started ? std::move(*warm.envelope) : build_envelope(base, options, collider, context);
   };
-  const VolumeMeshResult result = volume_mesh(bent, wing_case(true), makers, {}, k_context);
+  const VolumeMeshResult result = watched_volume_mesh(bent, wing_case(true), makers, {}, k_context);
   EXPECT_TRUE(is_started);
   EXPECT_TRUE(result.check.is_valid());
   EXPECT_FALSE(result.mesh.hexahedra.empty());

@@ -52,7 +52,7 @@ TEST(SplitLayer, NewVerticesOfSphereLieOnSphere) {
   options.sources.push_back({.kind = SourceKind::point, .from = {1.5, 0.1, 0.2}, .size = 0.1});  // the triangles of the sphere itself need no splits
   const Makers makers{
       .part_envelope = {}, .wall_envelope = {}, .true_surface = [](const Point& p, TriangleId, const std::array<double, 3>&) { return p / norm(p); }};
-  const VolumeMeshResult result = volume_mesh(wall, options, makers, {}, RunContext({.threads = 2}));
+  const VolumeMeshResult result = watched_volume_mesh(wall, options, makers, {}, RunContext({.threads = 2}));
   EXPECT_TRUE(result.check.is_valid()) << to_text(result.check);
   EXPECT_GT(result.n_split_triangles, 0);
   EXPECT_GT(result.mesh.layers.n_lines(), wall.n_vertices());

@@ -53,7 +53,7 @@ TEST_P(FillSheetsWith, FillsBothSidesOfAFreeSheet) {
     Domain domain = domain_around(test::cube(3));
     add_sheet(domain, {1.4, -0.3, -0.4}, {0.1, 1.5, 0.0}, {0.2, 0.0, 1.6}, n);
     TetraBoundary boundary = domain.boundary();
-    boundary.has_baffles = true;
+    boundary.traits.has_baffles = true;
     const SizeField sizes = build_size_field(domain.boundary(), {}, {}, RunContext{});
     const TetraResult result = fill(boundary, GetParam() == "sterna" ? &sizes : nullptr, {.engine = GetParam(), .try_other_engine = false}, RunContext{});
     EXPECT_EQ(result.engine, GetParam());

@@ -1,4 +1,4 @@
-#include "volmesh/layer/lay_out.h"
+#include "volmesh/lay_out.h"
 
 #include <string>
 #include <utility>
@@ -6,12 +6,10 @@
 
 #include "volmesh/adjacent/close_boundary.h"
 #include "volmesh/adjacent/wall_discs.h"
-#include "volmesh/domain/disc_baffles.h"
 #include "volmesh/envelope/periodic_growth.h"
 #include "volmesh/envelope/retract.h"
 #include "volmesh/envelope/untangle.h"
-#include "volmesh/layer/close_multi_normals.h"
-#include "volmesh/layer/close_wakes.h"
+#include "volmesh/features/domain_feature.h"
 #include "volmesh/layer/extrude.h"
 
 namespace sterna::volmesh {
@@ -40,14 +38,12 @@ Extrusion extrude_clear_of_collisions(const LayerBase& base, const MeshCase& opt
   }
 }
 
+/// Closes the outer boundary around the layer, with the parts that features add.
 ClosedOuter closed_around(const LayerDomain& layer_domain, const Envelope& envelope, const RunContext& context) {
-  ClosedOuter outer = close_boundary(layer_domain.domain, layer_domain.base, envelope, {layer_domain.options.ends, end_sizes(layer_domain.options)}, context);
-  std::vector<std::size_t> on_walls;
-  for (const WallDisc& wall_disc : layer_domain.domain.wall_discs) on_walls.push_back(wall_disc.disc);
-  outer.mesh = with_second_sides(std::move(outer.mesh), free_discs(layer_domain.options.discs, on_walls));
-  outer.line.resize(outer.mesh.n_vertices());
-  close_wall_discs(layer_domain.domain, layer_domain.base, envelope, layer_domain.options.discs,
-                   {layer_domain.options.size.size_growth, layer_domain.options.ends, end_sizes(layer_domain.options)}, context, outer);
+  const auto& options = layer_domain.options;
+  const Domain& domain = layer_domain.domain;
+  ClosedOuter outer = close_boundary(domain, layer_domain.base, envelope, {options.ends, end_sizes(options)}, context);
+  for (const auto& feature : domain.features) feature->add_boundary({options, domain, layer_domain.base, envelope, context}, outer);
   return outer;
 }
 
@@ -65,28 +61,21 @@ LaidLayer lay_out(LayerDomain& layer_domain, Envelope& envelope, const RunContex
     const TestedEnvelope tested = certify_envelope(layer_domain.base, layer_domain.collider, envelope, context);
     require_proved(tested);
     laid.certificate = tested;
-    if (!layer_domain.domain.has_borders()) laid.clear = tested.clear;
+    if (!layer_domain.domain.needs.remeshes_outer) laid.clear = tested.clear;
   }
   laid.report = report_layer(layer_domain.base, layer_domain.options.envelope, envelope, extrusion, &layer_domain.domain.outer, context);
   laid.curving_shares = extrusion.curving_shares;
   const ClosedOuter outer = closed_around(layer_domain, envelope, context);
-  open_wall_discs(layer_domain.domain, extrusion.layers, extrusion.points);
+  const Domain& domain = layer_domain.domain;
+  for (const auto& feature : domain.features) feature->cut_columns(domain, extrusion.layers, extrusion.points);
   laid.boundary = fill_boundary(layer_domain.base, extrusion, outer);
-  laid.mesh = assemble_layers(layer_domain.base, std::move(extrusion), outer, layer_sides(layer_domain.domain));
+  laid.mesh = assemble_layers(layer_domain.base, std::move(extrusion), outer, layer_sides(domain));
   laid.mesh.request = layer_request(layer_domain.base, layer_domain.options.envelope, envelope, laid.mesh.layers);
-  open_wall_discs(layer_domain.domain, laid.mesh.request);
-  const std::size_t n_wall_patches = layer_domain.base.wall.patches.size();
-  for (const PeriodicPair& sides : layer_domain.domain.periodic)
-    laid.mesh.periodic.push_back({PatchId(n_wall_patches + sides.first.index()), PatchId(n_wall_patches + sides.second.index()), sides.translation});
-  if (!layer_domain.domain.is_opened()) return laid;
+  for (const auto& feature : domain.features) feature->label(domain, laid.mesh);
+  if (!domain.needs.converts_cells) return laid;
   laid.opened = laid.mesh;
-  close_opened(layer_domain.domain, laid.mesh, laid.boundary);
+  for (const auto& feature : domain.features) feature->finish(domain, laid.mesh, laid.boundary);
   return laid;
-}
-
-void close_opened(const Domain& domain, HybridMesh& layers, FillBoundary& boundary) {
-  close_multi_normals(domain.ridges, layers, boundary);
-  close_wakes(domain.sheets, layers, boundary);
 }
 
 LayerProof prove_layer(const HybridMesh& mesh, const RunContext& context) {

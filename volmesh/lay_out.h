@@ -22,7 +22,7 @@ namespace sterna::volmesh {
 struct LaidLayer {
   HybridMesh mesh;                               ///< made by assemble_layers(): growth lines of the layer, then the outer boundary, without tetrahedra
   FillBoundary boundary;                         ///< boundary of the volume for the tetrahedra
-  std::optional<HybridMesh> opened = {};         ///< with opened ridges or wake sheets: the layer before close_opened()
+  std::optional<HybridMesh> opened = {};         ///< with opened ridges or wake sheets: the layer before DomainFeature::finish()
   std::array<std::int64_t, 5> curving_shares{};  ///< as in Extrusion::curving_shares
   LayerReport report;
   EnvelopeCertificate certificate;  ///< passed certificate of the envelope; the layer's cells are not counted yet
@@ -33,10 +33,6 @@ struct LaidLayer {
 /// \pre, \post the envelope is valid and clear
 /// \throws the errors of the stages; Error(envelope_failed) if the certificate fails; MultiNormalError if opened ridges get no valid cells
 LaidLayer lay_out(LayerDomain& layer_domain, Envelope& envelope, const RunContext& context);
-
-/// Converts a layer on a wall with opened ridges, or with wake sheets, to the cells of the given wall.
-/// \throws the errors of close_multi_normals() and close_wakes()
-void close_opened(const Domain& domain, HybridMesh& layers, FillBoundary& boundary);
 
 /// Results of the layer checks that run while an engine makes the tetrahedra.
 struct LayerProof {
