@@ -9,7 +9,8 @@
 #include "io/file/format_table.h"
 #include "io/output/atomic_file.h"
 #include "io/output/scratch_folder.h"
-#include "scripting/command/cli_options.h"
+#include "scripting/cache/stage_cache.h"
+#include "scripting/command/command_line.h"
 #include "scripting/interpreter/script_args.h"
 #include "scripting/terminal/exit_status.h"
 #include "scripting/values/models.h"
@@ -24,6 +25,17 @@ namespace sterna::scripting {
 namespace {
 
 constexpr int k_last_port = 65535;
+
+struct ViewCommand {
+  std::filesystem::path input;
+  OptionOverrides arguments;  ///< NAME=VALUE
+  OptionOverrides overrides;  ///< --set
+  int port = 0;               ///< 0: any free port
+  bool is_without_browser = false;
+  std::filesystem::path cache;  ///< empty: a cache for this session, removed at its end
+  double cache_limit = k_cache_limit;
+  bool is_worker = false;  ///< not listed in the help: this process runs scripts for the workbench (view_worker.h)
+};
 
 /// Returns a script that reads the file, so that files are shown in the same way as results of scripts.
 std::string reading_script(const std::filesystem::path& input) {
@@ -58,8 +70,6 @@ std::optional<ChildProcess> open_browser(const std::string& address, const Comma
   }
 }
 
-}  // namespace
-
 CLI::App* add_view_arguments(CLI::App& app, ViewCommand& view) {
   CLI::App* command = app.add_subcommand("view", "open the workbench: a page in the browser that shows the results of a script and follows its changes");
   command->add_option("file", view.input, "case.lua; or a file of a model, surface or volume mesh; or the folder of a series that was run")->required();
@@ -85,7 +95,7 @@ CLI::App* add_view_arguments(CLI::App& app, ViewCommand& view) {
   return command;
 }
 
-int execute(const ViewCommand& command, const CommandContext& context) {
+int run_view(const ViewCommand& command, const CommandContext& context) {
   if (command.is_worker) {
     const StageCache cache(CacheSettings{.folder = command.cache, .limit = command.cache_limit});
     return run_view_worker({.script = command.input, .overrides = command.overrides, .cache = &cache}, context);
@@ -128,6 +138,13 @@ int execute(const ViewCommand& command, const CommandContext& context) {
   if (context.stops_itself) context.stops_itself(true);
   bench.follow(context.run.stop_token());
   return k_exit_success;
+}
+
+}  // namespace
+
+void add_view_command(CLI::App& app, const std::function<void(std::function<int(const CommandContext&)>)>& choose) {
+  const auto view = std::make_shared<ViewCommand>();
+  add_view_arguments(app, *view)->final_callback([view, choose] { choose([view](const CommandContext& context) { return run_view(*view, context); }); });
 }
 
 }  // namespace sterna::scripting

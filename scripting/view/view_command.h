@@ -1,9 +1,8 @@
 // `sterna view`: the workbench of a script, or of a file.
 #pragma once
 
-#include <filesystem>
+#include <functional>
 
-#include "scripting/cache/stage_cache.h"
 #include "scripting/command/command_context.h"
 
 namespace CLI {
@@ -12,20 +11,8 @@ class App;
 
 namespace sterna::scripting {
 
-struct ViewCommand {
-  std::filesystem::path input;
-  OptionOverrides arguments;  ///< NAME=VALUE
-  OptionOverrides overrides;  ///< --set
-  int port = 0;               ///< 0: any free port
-  bool is_without_browser = false;
-  std::filesystem::path cache;  ///< empty: a cache for this session, removed at its end
-  double cache_limit = k_cache_limit;
-  bool is_worker = false;  ///< not listed in the help: this process runs scripts for the workbench (view_worker.h)
-};
-
-CLI::App* add_view_arguments(CLI::App& app, ViewCommand& view);
-/// Serves the page until Ctrl-C.
-/// \throws Error(file_not_found, unsupported_format) for an input that cannot be shown, (bad_argument) if the port is taken
-int execute(const ViewCommand& command, const CommandContext& context);
+/// Adds the command, which serves the page until Ctrl-C. \p choose: receives the command to execute.
+/// It throws Error(file_not_found, unsupported_format) for an input that cannot be shown, (bad_argument) if the port is taken.
+void add_view_command(CLI::App& app, const std::function<void(std::function<int(const CommandContext&)>)>& choose);
 
 }  // namespace sterna::scripting
