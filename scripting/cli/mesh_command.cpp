@@ -192,11 +192,7 @@ SurfaceValue wall_of_files(const MeshRequest& request, const std::vector<InputPa
   const std::vector<UnionItem> items(inputs.begin(), inputs.end());
   if (request.is_repaired()) return repair_surfaces(items, requested.stitching, requested.repair, reuse, context.part("surface", 0.0, k_mesh_surface_end));
   if (!request.is_wrapped()) return read_wall(inputs, requested.stitching, context.part("surface", 0.0, k_mesh_read_end));
-  surfmesh::WrapOptions wrap = requested.wrap;
-  wrap.unit = requested.stitching.unit;
-  wrap.split_angle = requested.stitching.split_angle;
-  wrap.fluid = requested.stitching.fluid;
-  return wrap_surfaces(items, wrap, reuse, context.part("surface", 0.0, k_mesh_surface_end));
+  return wrap_surfaces(items, wrap_with_reading(requested.wrap, requested.stitching), reuse, context.part("surface", 0.0, k_mesh_surface_end));
 }
 
 /// Generates the volume mesh. With --auto a remeshed surface is tried as well if the given triangles allow no envelope or no tetrahedra. The remeshed surface

@@ -112,11 +112,7 @@ SurfaceReader read_surface_entry(TableReader& reader, const ScriptCall& call) {
     };
   if (is_wrapped)
     return [requested](const std::vector<InputPath>& files, const surfmesh::StitchOptions& stitching, const RunContext& context, const Reuse& reuse) {
-      surfmesh::WrapOptions wrap = requested.wrap;
-      wrap.unit = stitching.unit;
-      wrap.split_angle = stitching.split_angle;
-      wrap.fluid = stitching.fluid;
-      return wrap_surfaces(std::vector<UnionItem>(files.begin(), files.end()), wrap, reuse, context);
+      return wrap_surfaces(std::vector<UnionItem>(files.begin(), files.end()), wrap_with_reading(requested.wrap, stitching), reuse, context);
     };
   return {};
 }
