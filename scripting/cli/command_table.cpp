@@ -17,7 +17,7 @@
 namespace sterna::scripting {
 namespace {
 
-constexpr int k_max_tasks = 1000000;
+constexpr int k_max_tasks = 1000000, k_last_port = 65535;
 
 std::vector<CommandArgument> joined(std::vector<CommandArgument> a, const std::vector<CommandArgument>& b, const std::vector<CommandArgument>& c) {
   for (const std::vector<CommandArgument>* more : {&b, &c}) a.insert(a.end(), more->begin(), more->end());
@@ -311,7 +311,17 @@ const std::vector<CommandRow>& command_rows() {
        .picture = "output"},
       case_row(true),
       case_row(false),
-      {.name = "view", .add = add_view_command},
+      {.name = "view",
+       .summary = "open the workbench: a page in the browser that shows the results of a script and follows its changes",
+       .arguments = {file("file", "case.lua; or a file of a model, surface or volume mesh; or the folder of a series that was run"),
+                     other(add_script_arguments),
+                     whole("--port", "port on 127.0.0.1; default: any free port", k_last_port, "N"),
+                     flag("--no-browser", "only print the address"),
+                     set(),
+                     cache("store results of stages in this folder; default: until the workbench ends"),
+                     {.takes = CommandArgument::Takes::flag, .name = "--worker", .is_hidden = true}},  // see view_worker.h
+       .footer = "sterna view case.lua span=11 --port 8123. Ctrl-C ends it. From another machine: ssh -L 8123:127.0.0.1:8123 HOST. See docs/view.md.",
+       .run = view_command},
       {.name = "pentagrow",
        .summary = "mesh the space around a surface by a configuration of pentagrow, with pentagrow's file names; also available as the program pentagrow "
                   "beside sterna",

@@ -83,16 +83,20 @@ void add_patch_option(CLI::App& command, const std::string& name, const std::str
   });
 }
 
-void add_cache_options(CLI::App& command, CommandLine& line) {
-  command.add_option("--cache", line.cache, "store results of stages in this folder and reuse them if all their inputs are unchanged; the output is the same")
-      ->type_name("FOLDER");
-  command
-      .add_option_function<double>(
-          "--cache-limit", [&line](double limit) { line.cache_limit = limit; },
-          "largest size of that folder in bytes; when exceeded, the least recently used results are removed; default: 20e9")
-      ->needs("--cache")
-      ->check(CLI::PositiveNumber)
-      ->type_name("BYTES");
+void add_set_option(CLI::App& command, OptionOverrides& overrides) {
+  add_repeated(command, "--set", "any option of any stage, e.g. --set envelope.layers=24", "STAGE.OPTION=VALUE",
+               [&overrides](const std::string& text) { overrides.push_back(split_assignment(text)); });
+}
+
+/// \param help of --cache, for a command that also has a cache without --cache
+void add_cache_options(CLI::App& command, const std::string& help, CommandLine& line) {
+  constexpr const char* k_help = "store results of stages in this folder and reuse them if all their inputs are unchanged; the output is the same";
+  command.add_option("--cache", line.cache, help.empty() ? k_help : help)->type_name("FOLDER");
+  CLI::Option* limit = command.add_option_function<double>(
+      "--cache-limit", [&line](double bytes) { line.cache_limit = bytes; },
+      "largest size of that folder in bytes; when exceeded, the least recently used results are removed; default: 20e9");
+  if (help.empty()) limit->needs("--cache");
+  limit->check(CLI::PositiveNumber)->type_name("BYTES");
 }
 
 /// Adds an argument whose values are words of the line.
@@ -117,7 +121,7 @@ void add_argument(CLI::App& command, const CommandArgument& argument, CommandLin
   switch (argument.takes) {
     case Takes::options: return add_schema_options(command, argument.options.table, line.options, argument.help);
     case Takes::set: return add_set_option(command, line.set);
-    case Takes::cache: return add_cache_options(command, line);
+    case Takes::cache: return add_cache_options(command, argument.help, line);
     case Takes::patches: return add_patch_option(command, argument.name, argument.help, line.patches[key_of_argument(argument.name)]);
     case Takes::other: return argument.add(command, line);
     case Takes::unit:
@@ -173,8 +177,8 @@ CommandArgument texts(std::string name, std::string help, std::string type) {
 CommandArgument flag(std::string name, std::string help, bool is_set) {
   return {.takes = Takes::flag, .name = std::move(name), .help = std::move(help), .is_set = is_set};
 }
-CommandArgument whole(std::string name, std::string help, int most) {
-  return {.takes = Takes::whole, .name = std::move(name), .help = std::move(help), .most = most};
+CommandArgument whole(std::string name, std::string help, int most, std::string type) {
+  return {.takes = Takes::whole, .name = std::move(name), .help = std::move(help), .type = std::move(type), .most = most};
 }
 CommandArgument hidden(std::string name) { return {.name = std::move(name), .is_hidden = true}; }
 CommandArgument options(HeldOptions options, std::string note) {
@@ -182,7 +186,7 @@ CommandArgument options(HeldOptions options, std::string note) {
 }
 CommandArgument unit(std::string help) { return {.takes = Takes::unit, .name = {}, .help = std::move(help)}; }
 CommandArgument set() { return {.takes = Takes::set}; }
-CommandArgument cache() { return {.takes = Takes::cache}; }
+CommandArgument cache(std::string help) { return {.takes = Takes::cache, .name = {}, .help = std::move(help)}; }
 CommandArgument patches(std::string help, std::string name) { return {.takes = Takes::patches, .name = std::move(name), .help = std::move(help)}; }
 CommandArgument other(void (*add)(CLI::App&, CommandLine&)) { return {.takes = Takes::other, .add = add}; }
 
@@ -197,11 +201,6 @@ void complete_line(const CLI::App& command, CommandLine& line) {
   for (const CLI::Option* option : command.get_options())
     if (option->count() > 0)
       for (const std::string& name : option->get_lnames()) line.given.push_back("--" + name);
-}
-
-void add_set_option(CLI::App& command, OptionOverrides& overrides) {
-  add_repeated(command, "--set", "any option of any stage, e.g. --set envelope.layers=24", "STAGE.OPTION=VALUE",
-               [&overrides](const std::string& text) { overrides.push_back(split_assignment(text)); });
 }
 
 }  // namespace sterna::scripting

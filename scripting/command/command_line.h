@@ -65,12 +65,12 @@ CommandArgument outputs(std::string help);                  ///< -o,--output, ma
 CommandArgument text(std::string name, std::string help, std::string type = {});
 CommandArgument texts(std::string name, std::string help, std::string type);  ///< may be given several times
 CommandArgument flag(std::string name, std::string help, bool is_set = false);
-CommandArgument whole(std::string name, std::string help, int most = 0);
+CommandArgument whole(std::string name, std::string help, int most = 0, std::string type = {});
 CommandArgument hidden(std::string name);  ///< not listed in the help
 CommandArgument options(HeldOptions options, std::string note = {});
-CommandArgument unit(std::string help);  ///< --unit, an option of another verb of the command
-CommandArgument set();                   ///< --set STAGE.OPTION=VALUE
-CommandArgument cache();                 ///< --cache, --cache-limit
+CommandArgument unit(std::string help);        ///< --unit, an option of another verb of the command
+CommandArgument set();                         ///< --set STAGE.OPTION=VALUE
+CommandArgument cache(std::string help = {});  ///< --cache, --cache-limit; with a help text, the limit also applies without --cache
 CommandArgument patches(std::string help, std::string name = "--patch");
 CommandArgument other(void (*add)(CLI::App&, CommandLine&));
 
@@ -80,8 +80,5 @@ CommandArgument other(void (*add)(CLI::App&, CommandLine&));
 void add_arguments(CLI::App& command, const std::vector<CommandArgument>& arguments, CommandLine& line);
 /// Completes the line of the command that the user has chosen: options of --set come after the others.
 void complete_line(const CLI::App& command, CommandLine& line);
-
-/// Adds --set stage.option=value.
-void add_set_option(CLI::App& command, OptionOverrides& overrides);
 
 }  // namespace sterna::scripting

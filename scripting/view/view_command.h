@@ -1,18 +1,13 @@
 // `sterna view`: the workbench of a script, or of a file.
 #pragma once
 
-#include <functional>
-
 #include "scripting/command/command_context.h"
-
-namespace CLI {
-class App;
-}
+#include "scripting/command/command_line.h"
 
 namespace sterna::scripting {
 
-/// Adds the command, which serves the page until Ctrl-C. \p choose: receives the command to execute.
-/// It throws Error(file_not_found, unsupported_format) for an input that cannot be shown, (bad_argument) if the port is taken.
-void add_view_command(CLI::App& app, const std::function<void(std::function<int(const CommandContext&)>)>& choose);
+/// Serves the page until Ctrl-C.
+/// \throws Error(file_not_found, unsupported_format) for an input that cannot be shown, (bad_argument) if the port is taken
+int view_command(const CommandLine& line, const CommandContext& context);
 
 }  // namespace sterna::scripting
