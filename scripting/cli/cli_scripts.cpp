@@ -1,9 +1,10 @@
-#include "scripting/cli/cli_scripts.h"
-
+// The commands for scripts: check-script, manual.
 #include <CLI/CLI.hpp>
 
 #include "geom/base/error.h"
-#include "scripting/interpreter/script_args.h"
+#include "scripting/cli/command_table.h"
+#include "scripting/cli/commands.h"
+#include "scripting/interpreter/script_manual.h"
 #include "scripting/interpreter/script_run.h"
 #include "scripting/lua/script_check.h"
 #include "scripting/terminal/exit_status.h"
@@ -27,19 +28,6 @@ std::string options_markdown(const CLI::App& app) {
   return text.empty() ? text : "\n| option | |\n|---|---|\n" + text;
 }
 
-}  // namespace
-
-void add_script_arguments(CLI::App& command, OptionOverrides& arguments) {
-  command
-      .add_option_function<std::vector<std::string>>(
-          "arguments",
-          [&arguments](const std::vector<std::string>& texts) {
-            for (const std::string& text : texts) arguments.push_back(split_argument(text));
-          },
-          "arguments that the script reads with args{ alpha = 0 }, e.g. alpha=4 height=2mm half=true")
-      ->type_name("NAME=VALUE ...");
-}
-
 std::string commands_markdown(const CLI::App& app) {
   std::string text = "Options of every command:\n" + options_markdown(app);
   for (const CLI::App* command : app.get_subcommands({})) {
@@ -50,17 +38,27 @@ std::string commands_markdown(const CLI::App& app) {
   return text + "\n" + std::string(k_exit_status_help) + "\n";
 }
 
-int execute(const CheckScriptCommand& command, const CommandContext& context) {
+}  // namespace
+
+void add_manual_command(CLI::App& app, const ChooseCommand& choose) {
+  app.add_subcommand("manual", "print the reference of verbs, objects, options and commands (docs/lua.md)")->final_callback([&app, choose] {
+    choose([&app](const CommandContext& context) {
+      context.console.print(manual_text(commands_markdown(app)));
+      return k_exit_success;
+    });
+  });
+}
+
+int check_script_command(const CommandLine& line, const CommandContext& context) {
   ScriptCheck check;
-  check_script({.script = command.script.script, .overrides = command.script.overrides, .print = {}, .on_mesh = {}, .arguments = command.script.arguments},
-               check, context.run);
-  const std::string name = command.script.script.string();
+  const std::string script = line.word("script");
+  check_script({.script = script, .overrides = line.set, .print = {}, .on_mesh = {}, .arguments = line.arguments}, check, context.run);
   if (check.problems.empty()) {
-    context.console.print(name + ": no problems found; nothing was meshed or written");
+    context.console.print(script + ": no problems found; nothing was meshed or written");
     return k_exit_success;
   }
   for (const ErrorHandle& problem : check.problems) context.console.error(problem->what());
-  context.console.print(name + ": " + std::to_string(check.problems.size()) + (check.problems.size() == 1 ? " problem" : " problems"));
+  context.console.print(script + ": " + std::to_string(check.problems.size()) + (check.problems.size() == 1 ? " problem" : " problems"));
   return k_exit_usage;
 }
 

@@ -73,6 +73,13 @@ std::uint64_t first_difference(const fs::path& a, const fs::path& b) {
   }
 }
 
+/// Returns the number of threads of each run; a number that is given twice compares two equal runs.
+std::vector<int> thread_numbers(const CommandLine& line) {
+  std::vector<int> threads;
+  for (const std::string& number : line.all("threads")) threads.push_back(std::stoi(number));
+  return threads.empty() ? std::vector<int>{1, 2, 7} : threads;
+}
+
 std::string end_of(const fs::path& file) {
   std::ifstream stream(file, std::ios::binary);
   std::string text{std::istreambuf_iterator<char>(stream), {}};
@@ -84,24 +91,24 @@ std::string end_of(const fs::path& file) {
 
 /// Returns the command line of a run in its own folder. Input files are searched there first (for files that the run itself wrote), then in the folder of the
 /// user, then beside the script.
-std::vector<std::string> words_of(const DeterminismCommand& command, int threads, const RunContext& run) {
-  std::vector<std::string> words = {fs::read_symlink("/proc/self/exe").string(), "run", fs::absolute(command.script).string()};
-  for (const auto& [name, value] : command.arguments) words.push_back(name + "=" + value);
-  for (const auto& [name, value] : command.overrides) words.push_back("--set=" + name + "=" + value);
+std::vector<std::string> words_of(const CommandLine& line, int threads, const RunContext& run) {
+  std::vector<std::string> words = {fs::read_symlink("/proc/self/exe").string(), "run", fs::absolute(line.word("script")).string()};
+  for (const auto& [name, value] : line.arguments) words.push_back(name + "=" + value);
+  for (const auto& [name, value] : line.set) words.push_back("--set=" + name + "=" + value);
   words.push_back("--seed=" + std::to_string(run.seed()));
   words.push_back("--threads=" + std::to_string(threads));
   words.push_back("--look-in=" + fs::current_path().string());
   return words;
 }
 
-[[noreturn]] void refuse_failed_run(const DeterminismCommand& command, int threads, int wait_status, const fs::path& output, const fs::path& kept) {
+[[noreturn]] void refuse_failed_run(const std::string& script, int threads, int wait_status, const fs::path& output, const fs::path& kept) {
   const std::string how = WIFSIGNALED(wait_status) ? signal_text(WTERMSIG(wait_status)) : "exit status " + std::to_string(WEXITSTATUS(wait_status));
   const std::string words = end_of(output);
   throw Error({.code = ErrorCode::script_failed,
-               .attempted = "running " + command.script.string() + " with " + threads_text(threads),
+               .attempted = "running " + script + " with " + threads_text(threads),
                .problem = "the run failed, " + how + (words.empty() ? "" : ": " + words),
-               .hint = "the files of the runs are kept in " + kept.string() + "; `sterna run " + command.script.string() + " --threads " +
-                       std::to_string(threads) + "` repeats the run"});
+               .hint = "the files of the runs are kept in " + kept.string() + "; `sterna run " + script + " --threads " + std::to_string(threads) +
+                       "` repeats the run"});
 }
 
 /// Waits for the end of the process. \throws Error(cancelled) once the process has ended
@@ -118,12 +125,12 @@ int finish(ChildProcess& process, const RunContext& run) {
   }
 }
 
-void require_usable(const DeterminismCommand& command) {
-  if (!fs::exists(command.script))
-    throw Error({.code = ErrorCode::file_not_found, .attempted = "checking the determinism of " + command.script.string(), .problem = "there is no such file"});
-  if (command.threads.size() < 2)
+void require_usable(const std::string& script, const std::vector<int>& threads) {
+  if (!fs::exists(script))
+    throw Error({.code = ErrorCode::file_not_found, .attempted = "checking the determinism of " + script, .problem = "there is no such file"});
+  if (threads.size() < 2)
     throw Error({.code = ErrorCode::bad_argument,
-                 .attempted = "--threads " + (command.threads.empty() ? std::string() : std::to_string(command.threads.front())),
+                 .attempted = "--threads " + (threads.empty() ? std::string() : std::to_string(threads.front())),
                  .problem = "one run cannot be compared",
                  .hint = "--threads 1,2,7, or the same number twice for two equal runs: --threads 2,2"});
 }
@@ -210,39 +217,41 @@ std::string to_json(const DeterminismReport& report) {
   return json.dump(2, ' ', false, Json::error_handler_t::replace);
 }
 
-int execute(const DeterminismCommand& command, const CommandContext& context) {
-  require_usable(command);
-  DeterminismReport report{.script = command.script.string(), .threads = command.threads, .files = {}, .left_out = {}, .kept = {}};
+int determinism_command(const CommandLine& line, const CommandContext& context) {
+  const std::string script = line.word("script");
+  const std::vector<int> all_threads = thread_numbers(line);
+  require_usable(script, all_threads);
+  DeterminismReport report{.script = script, .threads = all_threads, .files = {}, .left_out = {}, .kept = {}};
   io::ScratchFolder work("determinism");
-  const auto folder_of = [&](std::size_t i) { return work.path() / ("run" + std::to_string(i + 1) + "_threads" + std::to_string(command.threads[i])); };
-  for (std::size_t i = 0; i < command.threads.size(); ++i) {
-    const int threads = command.threads[i];
+  const auto folder_of = [&](std::size_t i) { return work.path() / ("run" + std::to_string(i + 1) + "_threads" + std::to_string(all_threads[i])); };
+  for (std::size_t i = 0; i < all_threads.size(); ++i) {
+    const int threads = all_threads[i];
     const fs::path folder = folder_of(i), output = folder.string() + ".txt";
     fs::create_directory(folder);
     const Clock::time_point start = Clock::now();
-    context.run.info(fmt::format("run {} of {}: {}", i + 1, command.threads.size(), threads_text(threads)));
-    ChildProcess process = start_worker(words_of(command, threads, context.run), output, -1, folder);
+    context.run.info(fmt::format("run {} of {}: {}", i + 1, all_threads.size(), threads_text(threads)));
+    ChildProcess process = start_worker(words_of(line, threads, context.run), output, -1, folder);
     if (const int status = finish(process, context.run); status != 0) {
       work.keep();
-      refuse_failed_run(command, threads, status, output, work.path());
+      refuse_failed_run(script, threads, status, output, work.path());
     }
     compare_run(folder_of(0), folder, threads, report);
     const bool is_equal = report.is_pass();
-    context.run.info(fmt::format("run {} of {}: {}, {}{}", i + 1, command.threads.size(), threads_text(threads),
+    context.run.info(fmt::format("run {} of {}: {}, {}{}", i + 1, all_threads.size(), threads_text(threads),
                                  duration_text(std::chrono::duration<double>(Clock::now() - start).count()),
                                  i == 0     ? ""
                                  : is_equal ? ", equal"
                                             : ", different"));
     std::error_code ignored;  // the file is removed with all others at the end
     if (i > 0 && is_equal) fs::remove_all(folder, ignored);
-    context.run.progress(static_cast<double>(i + 1) / static_cast<double>(command.threads.size()));
+    context.run.progress(static_cast<double>(i + 1) / static_cast<double>(all_threads.size()));
   }
   if (!report.is_pass()) {
     work.keep();
     report.kept = work.path();
   }
   context.console.end_progress();
-  context.console.print(command.is_json ? to_json(report) : to_text(report));
+  context.console.print(line.flag("json") ? to_json(report) : to_text(report));
   return report.is_pass() ? k_exit_success : k_exit_failed;
 }
 

@@ -6,17 +6,10 @@
 #include <string>
 #include <vector>
 
-#include "scripting/cli/commands.h"
+#include "scripting/command/command_context.h"
+#include "scripting/command/command_line.h"
 
 namespace sterna::scripting {
-
-struct DeterminismCommand {
-  std::filesystem::path script;
-  OptionOverrides overrides;             ///< --set
-  OptionOverrides arguments;             ///< NAME=VALUE
-  std::vector<int> threads = {1, 2, 7};  ///< number of threads of each run; a number that is given twice compares two equal runs
-  bool is_json = false;
-};
 
 /// Comparison result of a file.
 struct ComparedFile {
@@ -54,6 +47,6 @@ std::string to_json(const DeterminismReport& report);
 
 /// Runs the script once for each number of threads, each in a separate process and folder, and compares the files. Status 0: all equal, 1: not.
 /// \throws Error(script_failed) if a run fails; Error(cancelled) after the run was stopped and the folder removed
-int execute(const DeterminismCommand& command, const CommandContext& context);
+int determinism_command(const CommandLine& line, const CommandContext& context);
 
 }  // namespace sterna::scripting

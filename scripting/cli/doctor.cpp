@@ -1,11 +1,9 @@
-#include "scripting/cli/doctor.h"
-
+// `sterna doctor`: tests if this installation is complete.
 #include <fmt/format.h>
 #include <link.h>
 #include <sys/utsname.h>
 #include <unistd.h>
 
-#include <CLI/CLI.hpp>
 #include <algorithm>
 #include <array>
 #include <cstdlib>
@@ -18,6 +16,7 @@
 #include "geom/base/error.h"
 #include "geom/base/machine_memory.h"
 #include "io/output/scratch_folder.h"
+#include "scripting/cli/commands.h"
 #include "scripting/interpreter/script_run.h"
 #include "scripting/report/report_page.h"
 #include "scripting/terminal/exit_status.h"
@@ -139,7 +138,9 @@ Finding tiny_mesh(const std::string& engine, const CommandContext& context) {
   }
 }
 
-int examine(const CommandContext& context) {
+}  // namespace
+
+int doctor_command(const CommandLine& /*line*/, const CommandContext& context) {
   context.console.print("sterna " STERNA_VERSION ", GPL-3.0-or-later");
   Health worst = Health::good;
   const auto report = [&](const Finding& finding) {
@@ -162,13 +163,6 @@ int examine(const CommandContext& context) {
                         : worst == Health::poor ? "This installation can mesh; see poor above for limitations."
                                                 : "All tests passed.");
   return worst == Health::broken ? k_exit_failed : k_exit_success;
-}
-
-}  // namespace
-
-void add_doctor_command(CLI::App& app, const std::function<void(std::function<int(const CommandContext&)>)>& choose) {
-  app.add_subcommand("doctor", "test this installation: versions, processor, memory, engines, page, browser, and a small mesh by each engine")
-      ->final_callback([choose] { choose(examine); });
 }
 
 }  // namespace sterna::scripting

@@ -1,5 +1,4 @@
-#include "scripting/cli/pentagrow_command.h"
-
+// `sterna pentagrow wall.stl case.cfg`, also started under the program name pentagrow.
 #include <algorithm>
 #include <array>
 #include <fstream>
@@ -13,6 +12,7 @@
 #include "geom/mesh/quality.h"
 #include "io/file/surface_file.h"
 #include "io/output/atomic_file.h"
+#include "scripting/cli/commands.h"
 #include "scripting/cli/pentagrow_config.h"
 #include "scripting/terminal/exit_status.h"
 #include "scripting/values/stored_stages.h"
@@ -34,16 +34,16 @@ std::string contents_of(const std::string& file) {
   return {std::istreambuf_iterator<char>(stream), {}};
 }
 
-SurfaceValue read_surface(const PentagrowCommand& command, const PentagrowCase& given, const RunContext& context) {
-  const std::filesystem::path path = command.surface;
+SurfaceValue read_pentagrow_wall(const std::string& file, const PentagrowCase& given, const RunContext& context) {
+  const std::filesystem::path path = file;
   if (!given.input_extension.empty() && path.extension() != given.input_extension)
     throw Error({.code = ErrorCode::bad_argument,
-                 .attempted = "reading " + command.surface,
+                 .attempted = "reading " + file,
                  .problem = "InputFormat is " + given.input_extension.substr(1) + ", but the name of the file has another format",
                  .hint = "leave InputFormat out, or rename the file"});
   surfmesh::StitchOptions reading;
   reading.allow_open = given.is_half;
-  const std::array files = {InputPath{command.surface, command.surface}};
+  const std::array files = {InputPath{file, file}};
   SurfaceValue wall = read_wall(files, reading, context);
   if (!given.is_half || !wall.report.is_closed) return wall;
   HalfOptions half;
@@ -109,11 +109,12 @@ std::string skew_text(const HybridMesh& mesh) {
 
 }  // namespace
 
-int execute(const PentagrowCommand& command, const CommandContext& context) {
-  PentagrowCase given = read_pentagrow_config(command.config.empty() ? std::string() : contents_of(command.config), command.config);
+int pentagrow_command(const CommandLine& line, const CommandContext& context) {
+  const std::string config = line.word("config");
+  PentagrowCase given = read_pentagrow_config(config.empty() ? std::string() : contents_of(config), config);
   for (const std::string& note : given.notes) context.run.warn(note);
   for (const auto& output : given.outputs) require_mesh_output(output);
-  const SurfaceValue wall = read_surface(command, given, context.run.part("surface", 0.0, k_pentagrow_read_end));
+  const SurfaceValue wall = read_pentagrow_wall(line.word("surface"), given, context.run.part("surface", 0.0, k_pentagrow_read_end));
   for (const volmesh::SizeSource& source : nearfield_sources(given, wall.mesh)) given.options.sources.push_back(source);
 
   const MeshValue mesh = make_volume_mesh(wall, given.options, {}, context.run.part("volume_mesh", k_pentagrow_read_end, k_pentagrow_mesh_end));

@@ -70,6 +70,26 @@ void set_options(const OptionTable& table, const OptionOverrides& given, const C
                .problem = n_problems == 1 ? problems.substr(5) : std::to_string(n_problems) + " problems" + problems});
 }
 
+namespace {
+
+template <class IsTaken>
+OptionOverrides take_if(OptionOverrides& given, IsTaken is_taken) {
+  const auto rest = std::ranges::stable_partition(given, is_taken);
+  OptionOverrides taken(std::make_move_iterator(given.begin()), std::make_move_iterator(rest.begin()));
+  given.erase(given.begin(), rest.begin());
+  return taken;
+}
+
+}  // namespace
+
+OptionOverrides take_options(OptionOverrides& given, const OptionTable& table) {
+  return take_if(given, [&](const auto& entry) { return has_option(table, entry.first); });
+}
+
+OptionOverrides take_stage(OptionOverrides& given, std::string_view stage) {
+  return take_if(given, [&](const auto& entry) { return entry.first.starts_with(std::string(stage) + "."); });
+}
+
 void refuse_without_effect(const std::vector<std::string>& given, std::initializer_list<std::string_view> without_effect, const std::string& attempted,
                            const std::string& why, const std::string& hint) {
   std::string names;

@@ -37,7 +37,12 @@ struct OptionsElsewhere {
 /// \throws Error(bad_argument); OptionsShown
 void set_options(const OptionTable& table, const OptionOverrides& given, const CommandContext& context, const std::vector<OptionsElsewhere>& elsewhere = {});
 
-/// \param given as returned by given_options. \throws Error(bad_argument) that names the given options of `without_effect`: "--strict has no effect: a.step is
+/// Removes the options of a table from `given` and returns them.
+OptionOverrides take_options(OptionOverrides& given, const OptionTable& table);
+/// Removes the options "stage.option" of a stage from `given` and returns them.
+OptionOverrides take_stage(OptionOverrides& given, std::string_view stage);
+
+/// \param given as in CommandLine. \throws Error(bad_argument) that names the given options of `without_effect`: "--strict has no effect: a.step is
 /// a model"
 void refuse_without_effect(const std::vector<std::string>& given, std::initializer_list<std::string_view> without_effect, const std::string& attempted,
                            const std::string& why, const std::string& hint = {});

@@ -41,10 +41,13 @@ std::string verbs_with_option(const std::string& name) {
 
 }  // namespace
 
+std::string help_on_options(const ScriptVerb& verb) {
+  return verb.options_help ? verb.options_help() : verb.options ? options_help(verb.options().table) : std::string();
+}
+
 std::vector<OptionGroup> option_groups(const ScriptVerb& verb) {
   std::vector<OptionGroup> groups;
-  if (!verb.options_help) return groups;
-  std::istringstream text(verb.options_help());
+  std::istringstream text(help_on_options(verb));
   bool is_option = false;
   for (std::string line; std::getline(text, line);) {
     OptionDoc option;
@@ -102,7 +105,7 @@ std::vector<std::string> examples_of(const ScriptVerb& verb) {
 std::string help_text(const ScriptVerb& verb) {
   std::string text = std::string(verb.name) + ": " + std::string(verb.summary);
   for (const std::string& example : examples_of(verb)) text += "\n  " + example;
-  if (verb.options_help) text += "\noptions (name = default [unit] (range)):\n" + verb.options_help();
+  if (const std::string options = help_on_options(verb); !options.empty()) text += "\noptions (name = default [unit] (range)):\n" + options;
   if (text.back() == '\n') text.pop_back();
   return text;
 }

@@ -213,6 +213,8 @@ const ScriptHooks k_hooks = {.kinds = object_kinds,
 
 }  // namespace
 
+const ScriptHooks& script_hooks() { return k_hooks; }
+
 struct ScriptState::Parts {
   ScriptSession session;
   Memory memory;

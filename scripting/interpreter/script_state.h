@@ -9,6 +9,9 @@
 
 namespace sterna::scripting {
 
+/// The functions of the interpreter for the sessions of scripts and commands.
+const ScriptHooks& script_hooks();
+
 class ScriptState {
  public:
   /// \throws Error unknown_option or bad_argument of an override; overflow without memory.

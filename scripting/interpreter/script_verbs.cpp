@@ -25,6 +25,7 @@
 #include "scripting/values/patch_rules.h"
 #include "scripting/values/stored_stages.h"
 #include "scripting/values/summary.h"
+#include "scripting/values/surface_items.h"
 #include "scripting/values/verbs.h"
 #include "scripting/values/wake_verbs.h"
 #include "scripting/verbs/component_verbs.h"
@@ -97,15 +98,7 @@ ScriptValue unite(const ScriptCall& call) {
   surfmesh::StitchOptions reading;
   const OptionTable schema = sterna::options_of(options), unit = unit_option(reading);
   TableReader reader(table, call.attempted());
-  std::vector<UnionItem> items;
-  std::size_t number = 0;
-  for (const ScriptValue& item : reader.items()) {
-    ++number;
-    if (const auto* surface = std::get_if<SurfaceHandle>(&item)) items.emplace_back(*surface);
-    else if (const auto* name = std::get_if<std::string>(&item)) items.emplace_back(find_input(call, *name));
-    else reader.add_problem("entry " + std::to_string(number) + ": expected a surface or a file name, not " + std::string(type_text(item)));
-  }
-  if (number == 0) reader.add_problem("needs a surface or a file name");
+  const std::vector<UnionItem> items = read_surfaces_and_files(reader, call);
   reader.read_options(schema);
   reader.read_options(unit);
   apply_overrides(call, schema);
@@ -143,11 +136,7 @@ ScriptValue make_mesh(const ScriptCall& call) {
   else if (items.size() > 1)
     reader.add_problem("takes one surface, not " + std::to_string(items.size()) + " (read_surface{ \"a.stl\", \"b.stl\" } joins files)");
   read_volume_case(reader, call, schema, SourceEntries::taken, made);
-  std::filesystem::path stages;
-  if (const ScriptValue* value = reader.field("stages")) {
-    if (const auto* name = std::get_if<std::string>(value)) stages = output_path(call, *name);
-    else reader.add_problem("stages: expected the name of a .sterna file, not " + std::string(type_text(*value)));
-  }
+  const std::filesystem::path stages = output_entry(reader, call, "stages", "the name of a .sterna file");
   complete_volume_case(reader, call, schema, made);
   require_volume_options(reader, made, wall ? wall->get() : nullptr);
   reader.finish();
@@ -185,11 +174,6 @@ ScriptValue write_mesh_files(const ScriptCall& call) {
   for (const auto& name : names) write_mesh(*mesh, name, options, call.session.context);
   call.session.context.info(wrote_text(names));
   return mesh;
-}
-
-std::string write_files_help() {
-  WriteOptions options;
-  return options_help(sterna::options_of(options));
 }
 
 std::string check_help() {
@@ -345,6 +329,8 @@ std::string union_help() {
   UniteOptions models;
   return options_help(sterna::options_of(options)) + options_help(unit_option(reading)) + "for models:\n" + options_help(sterna::options_of(models));
 }
+OptionTable volume_options(volmesh::MeshCase& options) { return volmesh::options_of(options); }
+
 std::string volume_help() {
   volmesh::MeshCase options;
   return options_help(volmesh::options_of(options)) + layer_rules_help() +
@@ -353,12 +339,13 @@ std::string volume_help() {
 }
 
 constexpr std::array<ScriptVerb, 6> k_first_verbs = {{
-    {"read_surface", k_read_surface_usage, "Reads surface files and joins them to one wall.", read_surface, surface_help, true, "surface"},
+    {"read_surface", k_read_surface_usage, "Reads surface files and joins them to one wall.", read_surface, surface_help, true, "surface", false,
+     held_options<surfmesh::StitchOptions>},
     {"union", k_union_usage, "Unites closed surfaces that intersect, or the crossing parts of one file, to one wall; or unites models to one model.", unite,
-     union_help, true, "model or surface", true},
+     union_help, true, "model or surface", true, held_options<UnionOptions, UniteOptions>},
     {"read_mesh", k_read_mesh_usage, "Reads a volume mesh.", read_mesh_file, nullptr, true, "mesh"},
     {"volume_mesh", k_volume_mesh_usage, "Meshes the space around a wall: prism layers on it, tetrahedra to the farfield.", make_mesh, volume_help, true,
-     "mesh"},
+     "mesh", false, held_table<volume_options, volmesh::MeshCase>},
     {"sphere", k_sphere_usage, "Spherical farfield for volume_mesh; with a centre and size: a source of short edges, for volume_mesh and surface_mesh.",
      make_sphere, sphere_help, false, "source"},
     {"help", "help(volume_mesh)  or  help(wall)  or  help \"mesh:write\"  or  help \"first_height\"",
@@ -370,7 +357,7 @@ constexpr std::array<ScriptVerb, 4> k_mesh_methods = {{
      "Proves that the mesh tiles its domain and prints the verdict; an INVALID mesh is an error that lists the locations.", check_mesh, check_help, true,
      "self"},
     {"mesh:write", "mesh:write(\"mesh.su2\", \"mesh.vtu\")  or  mesh:write{ \"mesh.su2\", numbering = \"both\" }",
-     "Writes the mesh, each file with a manifest <file>.json beside it.", write_mesh_files, write_files_help, true, "self"},
+     "Writes the mesh, each file with a manifest <file>.json beside it.", write_mesh_files, nullptr, true, "self", false, held_options<WriteOptions>},
     {"mesh:su2_config", k_su2_config_usage, "Writes an SU2 configuration for the mesh: markers, flow, reference values and initial settings.", write_su2_config,
      su2_config_help, true, "self"},
     {"mesh:foam_case", k_foam_case_usage,

@@ -13,6 +13,7 @@
 
 #include "geom/base/run_context.h"
 #include "scripting/cache/reuse.h"
+#include "scripting/lua/held_options.h"
 #include "scripting/lua/script_parameter.h"
 #include "scripting/lua/script_value.h"
 #include "scripting/lua/series_session.h"
@@ -81,9 +82,13 @@ struct ScriptVerb {
   std::string (*options_help)() = nullptr;
   bool is_heavy = false;  ///< takes long or writes files: left out when a script is only checked. Before the call, meshes that are no longer used are freed,
                           ///< because Lua does not know how large they are
-  std::string_view gives = {};  ///< kind of object (script_objects.h), "self", "model or surface", "stages", "table"; empty: other
-  bool is_kept = false;         ///< the model that it returns is taken from the cache if present (values/cached_model.h)
+  std::string_view gives = {};         ///< kind of object (script_objects.h), "self", "model or surface", "stages", "table"; empty: other
+  bool is_kept = false;                ///< the model that it returns is taken from the cache if present (values/cached_model.h)
+  HeldOptions (*options)() = nullptr;  ///< options that a command for this verb has as well; without options_help they are the help
 };
+
+/// Returns the help on the options of a verb; empty if it has none.
+std::string help_on_options(const ScriptVerb& verb);
 
 /// Pushes a verb as a Lua function. May raise.
 void push_verb(lua_State* state, const ScriptVerb& verb);

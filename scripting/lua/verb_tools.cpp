@@ -46,6 +46,14 @@ std::filesystem::path output_path(const ScriptCall& call, const std::string& nam
   return path;
 }
 
+std::filesystem::path output_entry(TableReader& reader, const ScriptCall& call, const std::string& name, std::string_view expected) {
+  const ScriptValue* value = reader.field(name);
+  if (!value) return {};
+  if (const auto* file = std::get_if<std::string>(value)) return output_path(call, *file);
+  reader.add_problem(name + ": expected " + std::string(expected) + ", not " + std::string(type_text(*value)));
+  return {};
+}
+
 std::vector<InputPath> file_names(const ScriptCall& call, TableReader& reader) {
   std::vector<InputPath> files;
   std::size_t number = 0;

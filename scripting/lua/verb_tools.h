@@ -35,6 +35,9 @@ InputPath find_input(const ScriptCall& call, const std::string& name);
 /// Returns the path to write a file of this name: relative names go to the session's output folder, where missing subfolders are created. A case can read back
 /// its own files by the same name.
 std::filesystem::path output_path(const ScriptCall& call, const std::string& name);
+/// Returns the path of the output file that an entry of the table names; empty if there is no such entry. Notes problems. \param expected "the name of a .vtu
+/// file"
+std::filesystem::path output_entry(TableReader& reader, const ScriptCall& call, const std::string& name, std::string_view expected);
 /// Returns the unnamed entries of a table as names of input files; notes problems.
 std::vector<InputPath> file_names(const ScriptCall& call, TableReader& reader);
 /// Returns the names after the object in mesh:write("a.su2", "b.vtu") or mesh:write{...}; a table may also contain the options of the schema.

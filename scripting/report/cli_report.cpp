@@ -1,4 +1,3 @@
-#include <CLI/CLI.hpp>
 #include <array>
 #include <utility>
 
@@ -6,7 +5,6 @@
 #include "geom/base/number_text.h"
 #include "io/file/format_table.h"
 #include "io/output/atomic_file.h"
-#include "scripting/command/cli_options.h"
 #include "scripting/report/report_command.h"
 #include "scripting/report/report_data.h"
 #include "scripting/terminal/exit_status.h"
@@ -17,7 +15,7 @@ namespace sterna::scripting {
 namespace {
 
 // Fractions of the progress.
-constexpr double k_read_end = 0.3, k_check_end = 0.7;
+constexpr double k_page_read_end = 0.3, k_page_check_end = 0.7;
 constexpr double k_megabyte = 1e6;
 
 }  // namespace
@@ -25,7 +23,7 @@ constexpr double k_megabyte = 1e6;
 std::pair<std::string, bool> page_of_file(const InputPath& input, const ReportOptions& options, const std::vector<std::string>& cuts, const GateTable* limits,
                                           const RunContext& context) {
   const std::string name = std::filesystem::path(input.name).filename().string();
-  const RunContext reading = context.part("read", 0.0, k_read_end), writing = context.part("report", k_check_end, 1.0);
+  const RunContext reading = context.part("read", 0.0, k_page_read_end), writing = context.part("report", k_page_check_end, 1.0);
   if (is_model_file(input.path))
     throw Error({.code = ErrorCode::bad_argument,
                  .attempted = "a report of " + input.name,
@@ -34,7 +32,7 @@ std::pair<std::string, bool> page_of_file(const InputPath& input, const ReportOp
   if (io::format_of(input.path).read_volume) {
     const MeshValue mesh = read_mesh(input, reading);
     if (count_cells(mesh.mesh).total() > 0) {
-      mesh.check = check(mesh.mesh, limits ? CheckOptions{.limits = *limits} : CheckOptions{}, context.part("check", k_read_end, k_check_end));
+      mesh.check = check(mesh.mesh, limits ? CheckOptions{.limits = *limits} : CheckOptions{}, context.part("check", k_page_read_end, k_page_check_end));
       return {report_html(mesh, options, cuts, name, writing), !mesh.check->is_valid()};
     }
   }
@@ -50,29 +48,6 @@ std::pair<std::string, bool> page_of_file(const InputPath& input, const ReportOp
   return {report_html(read_wall(files, stitching, reading), options, name, writing), false};
 }
 
-CLI::App* add_report_arguments(CLI::App& app, ReportCommand& report) {
-  CLI::App* command =
-      app.add_subcommand("report", "write a page (one HTML file) that shows a mesh: view, cuts, worst locations, histograms, gates, coverage, options");
-  command->add_option("mesh", report.input, "volume mesh or surface file. `sterna formats` lists the formats")->required();
-  command->add_option("-o,--output", report.output, "page.html")->required();
-  command
-      ->add_option("--cut", report.cuts,
-                   "cut at a location by name (\"leading edge\", \"tip\" ...), \"x=1.2\", or \"point=0,0,0 normal=0,1,0\", shown before the automatic cuts; "
-                   "may be given several times")
-      ->type_name("CUT")
-      ->allow_extra_args(false)
-      ->take_all();
-  command->add_option("--gate", report.gates, "limits of a QUALITY gate, instead of the defaults, as for `sterna check`; may be given several times")
-      ->type_name("MEASURE:LIMITS")
-      ->allow_extra_args(false)
-      ->take_all();
-  ReportOptions options;
-  add_schema_options(*command, sterna::options_of(options), report.options);
-  command->footer(
-      "sterna report mesh.cgns -o mesh.html --cut \"leading edge\" --cut x=1.2. Exit status 3 if the mesh is INVALID; the page is written in any case.");
-  return command;
-}
-
 void require_page_output(const std::filesystem::path& path) {
   if (path.extension() != ".html" && path.extension() != ".htm")
     throw Error({.code = ErrorCode::unsupported_format,
@@ -86,15 +61,17 @@ void write_page(const std::string& html, const std::filesystem::path& path, cons
   context.info("wrote " + path.string() + ": " + number_text(static_cast<double>(html.size()) / k_megabyte, 3) + " MB");
 }
 
-int execute(const ReportCommand& command, const CommandContext& context) {
-  require_page_output(command.output);
+int report_command(const CommandLine& line, const CommandContext& context) {
+  const std::string input = line.word("mesh"), output = line.word("output");
+  const std::vector<std::string>&cuts = line.all("cut"), &gates = line.all("gate");
+  require_page_output(output);
   ReportOptions options;
-  set_options(sterna::options_of(options), command.options, context);
-  require_report_cuts(command.cuts);
+  set_options(sterna::options_of(options), line.options, context);
+  require_report_cuts(cuts);
   GateTable limits;
-  for (const std::string& text : command.gates) set_gate_limits(text, limits);
-  const auto [html, is_invalid] = page_of_file({command.input, command.input}, options, command.cuts, command.gates.empty() ? nullptr : &limits, context.run);
-  write_page(html, command.output, context.run);
+  for (const std::string& text : gates) set_gate_limits(text, limits);
+  const auto [html, is_invalid] = page_of_file({input, input}, options, cuts, gates.empty() ? nullptr : &limits, context.run);
+  write_page(html, output, context.run);
   context.console.end_progress();
   return is_invalid ? k_exit_invalid : k_exit_success;
 }

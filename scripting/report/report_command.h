@@ -8,25 +8,13 @@
 
 #include "geom/mesh/gates.h"
 #include "scripting/command/command_context.h"
+#include "scripting/command/command_line.h"
 #include "scripting/lua/input_path.h"
 #include "scripting/report/report_options.h"
 
-namespace CLI {
-class App;
-}
-
 namespace sterna::scripting {
 
-struct ReportCommand {
-  std::string input;
-  std::filesystem::path output;
-  std::vector<std::string> cuts, gates;
-  OptionOverrides options;
-};
-
-/// Adds the command `sterna report MESH -o FILE.html`.
-CLI::App* add_report_arguments(CLI::App& app, ReportCommand& report);
-int execute(const ReportCommand& command, const CommandContext& context);
+int report_command(const CommandLine& line, const CommandContext& context);
 
 /// Tests the output path.
 /// \throws Error(unsupported_format) unless the name ends in .html

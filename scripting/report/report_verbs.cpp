@@ -80,7 +80,7 @@ std::string report_help() {
 constexpr std::array<ScriptVerb, 1> k_report_verbs = {{{"report", k_report_usage,
                                                         "Writes a page (one HTML file, opens without a network) that shows a mesh: view, cuts, worst "
                                                         "locations, histograms, gates, coverage, times, options (docs/report.md).",
-                                                        make_report, report_help, true, "nothing"}}};
+                                                        make_report, report_help, true, "nothing", false, held_options<ReportOptions>}}};
 
 }  // namespace
 

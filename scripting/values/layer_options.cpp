@@ -3,6 +3,8 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <functional>
+#include <optional>
 
 #include <fmt/format.h>
 
@@ -48,8 +50,6 @@ struct Schema<scripting::FamilyVerbOptions> {
 namespace sterna::scripting {
 namespace {
 
-bool is_option(const std::string& given, std::string_view name) { return given == name || given == "envelope." + std::string(name); }
-
 std::string member_name(int finer) {
   constexpr std::array<const char*, 5> k_names = {"extra_coarse", "coarse", "medium", "fine", "extra_fine"};
   if (std::abs(finer) <= 2) return k_names[static_cast<std::size_t>(finer + 2)];
@@ -87,55 +87,58 @@ constexpr std::array<ScriptVerb, 1> k_layer_options_verbs = {{
 
 }  // namespace
 
-void choose_solve_for(volmesh::MeshCase& options, const std::function<bool(std::string_view)>& is_given, std::string_view attempted) {
-  if (is_automatic(options.envelope.total_height) || is_given("solve_for")) return;
-  options.envelope.solve_for = volmesh::solved_for(is_given("layers"), is_given("max_growth"), true, attempted);
+namespace {
+
+bool is_among(const OptionOverrides& given, std::string_view stage, std::string_view name) {
+  return std::ranges::any_of(given, [&](const auto& entry) { return entry.first == name || entry.first == std::string(stage) + "." + std::string(name); });
 }
 
-void choose_solve_for(volmesh::MeshCase& options, TableReader& reader, const ScriptCall& call) {
-  const auto is_given = [&](std::string_view name) {
-    return reader.is_given("envelope", name) || std::ranges::any_of(call.session.overrides, [&](const auto& entry) { return is_option(entry.first, name); });
-  };
+/// \param flow conditions of the first height; null: none
+void complete_layers_of(volmesh::MeshCase& options, const std::function<bool(std::string_view, std::string_view)>& is_given, const volmesh::FlowState* flow,
+                        std::string_view attempted) {
+  volmesh::EnvelopeOptions& envelope = options.envelope;
+  const bool has_thickness = !is_automatic(envelope.boundary_layer) || !is_automatic(envelope.total_height);
+  if (flow && !has_thickness && !is_automatic(flow->length) && flow->reynolds >= volmesh::k_least_reynolds && flow->reynolds <= volmesh::k_largest_reynolds)
+    envelope.boundary_layer = volmesh::layer_thickness({}, *flow);
+  if (is_given("family", "refinement") && options.family.family_wake == volmesh::FamilyOptions{}.family_wake) options.family.family_wake = "on";
+  if (!is_automatic(envelope.total_height) && !is_given("envelope", "solve_for"))
+    envelope.solve_for = volmesh::solved_for(is_given("envelope", "layers"), is_given("envelope", "max_growth"), true, attempted);
+}
+
+/// Returns the conditions of the first height if it is given as a string with a flow; else nothing.
+std::optional<volmesh::FlowState> flow_of_first_height(const OptionOverrides& given) {
+  for (const auto& [name, text] : given)
+    if ((name == "first_height" || name == "envelope.first_height") && is_flow_text(text)) return quantity_of_text(text).flow;
+  return std::nullopt;
+}
+
+}  // namespace
+
+void complete_layers(volmesh::MeshCase& options, const OptionOverrides& given, std::string_view attempted) {
+  const std::optional<volmesh::FlowState> flow = flow_of_first_height(given);
+  complete_layers_of(
+      options, [&](std::string_view stage, std::string_view name) { return is_among(given, stage, name); }, flow ? &*flow : nullptr, attempted);
+}
+
+void complete_layers(volmesh::MeshCase& options, TableReader& reader, const ScriptCall& call) {
+  const OptionOverrides& overrides = call.session.overrides;
+  const std::optional<volmesh::FlowState> overruling = flow_of_first_height(overrides);
+  const QuantityValue* quantity = is_among(overrides, "envelope", "first_height") ? nullptr : reader.quantity_of("envelope", "first_height");
   try {
-    choose_solve_for(options, is_given, call.verb);
+    complete_layers_of(
+        options, [&](std::string_view stage, std::string_view name) { return reader.is_given(stage, name) || is_among(overrides, stage, name); },
+        overruling ? &*overruling
+        : quantity ? &quantity->flow
+                   : nullptr,
+        call.verb);
   } catch (const Error& error) {
     reader.add_problem(error.info().problem + " (" + error.info().hint + ")");
   }
 }
 
-namespace {
-
-void choose_boundary_layer_of(volmesh::MeshCase& options, const volmesh::FlowState& flow) {
-  if (!is_automatic(options.envelope.boundary_layer) || !is_automatic(options.envelope.total_height) || is_automatic(flow.length)) return;
-  if (!(flow.reynolds >= volmesh::k_least_reynolds && flow.reynolds <= volmesh::k_largest_reynolds)) return;
-  options.envelope.boundary_layer = volmesh::layer_thickness({}, flow);
-}
-
-}  // namespace
-
-void choose_boundary_layer(volmesh::MeshCase& options, std::string_view text) {
-  if (is_flow_text(text)) choose_boundary_layer_of(options, quantity_of_text(std::string(text)).flow);
-}
-
-void choose_boundary_layer(volmesh::MeshCase& options, const TableReader& reader, const ScriptCall& call) {
-  const auto overruled = std::ranges::find_if(call.session.overrides, [](const auto& entry) { return is_option(entry.first, "first_height"); });
-  if (overruled != call.session.overrides.end()) return choose_boundary_layer(options, overruled->second);
-  if (const QuantityValue* quantity = reader.quantity_of("envelope", "first_height")) choose_boundary_layer_of(options, quantity->flow);
-}
-
-void choose_family_wake(volmesh::MeshCase& options, bool is_refinement_given) {
-  if (is_refinement_given && options.family.family_wake == volmesh::FamilyOptions{}.family_wake) options.family.family_wake = "on";
-}
-
-void choose_family_wake(volmesh::MeshCase& options, const TableReader& reader, const ScriptCall& call) {
-  choose_family_wake(options, reader.is_given("family", "refinement") || std::ranges::any_of(call.session.overrides, [](const auto& entry) {
-                                return entry.first == "refinement" || entry.first == "family.refinement";
-                              }));
-}
-
 FunctionHandle read_first_heights(TableReader& reader, const ScriptCall& call) {
   const FunctionHandle* function = reader.option_function("envelope", "first_height");
-  const bool is_overruled = std::ranges::any_of(call.session.overrides, [&](const auto& entry) { return is_option(entry.first, "first_height"); });
+  const bool is_overruled = is_among(call.session.overrides, "envelope", "first_height");
   return function && !is_overruled ? *function : nullptr;
 }
 

@@ -2,7 +2,6 @@
 // mesh family.
 #pragma once
 
-#include <functional>
 #include <span>
 #include <string>
 #include <string_view>
@@ -14,26 +13,19 @@
 
 namespace sterna::scripting {
 
-/// Sets solve_for from the given options. \p is_given: returns true if an option of the stage "envelope", by name, is given.
-/// \throws Error(bad_argument) of volmesh::solved_for
-void choose_solve_for(volmesh::MeshCase& options, const std::function<bool(std::string_view)>& is_given, std::string_view attempted);
+/// Completes the options of layers after reading:
+/// - solve_for: the option to be derived if a total height is given;
+/// - boundary_layer: the thickness that the layers have to cover, from the flow conditions of first_height, if neither the thickness nor a total height is
+/// given
+///   and the flow has a turbulent layer;
+/// - family_wake: "on" if it is automatic and the mesh is a member of a family. All members have a wake, including the medium one, whose refinement of 1 is
+/// given
+///   explicitly.
+/// `given`: the options of the command line. \throws Error(bad_argument) of volmesh::solved_for
+void complete_layers(volmesh::MeshCase& options, const OptionOverrides& given, std::string_view attempted);
 /// The same for a verb's table and the overrides of the command line. Notes problems.
 /// \pre the options are read
-void choose_solve_for(volmesh::MeshCase& options, TableReader& reader, const ScriptCall& call);
-
-/// Sets the boundary layer thickness that the layers have to cover from the flow conditions of first_height, if neither the thickness nor a total height is
-/// given. Does nothing without a flow, or if its Reynolds number has no turbulent layer. \p text: first_height as given on the command line; empty: nothing.
-void choose_boundary_layer(volmesh::MeshCase& options, std::string_view text);
-/// The same for a verb's table and the overrides of the command line.
-/// \pre the options are read
-void choose_boundary_layer(volmesh::MeshCase& options, const TableReader& reader, const ScriptCall& call);
-
-/// Sets family_wake to "on" if it is automatic and the mesh is a member of a family: all members have a wake, including the medium one, whose refinement of 1
-/// is given explicitly.
-void choose_family_wake(volmesh::MeshCase& options, bool is_refinement_given);
-/// The same for a verb's table and the overrides of the command line.
-/// \pre the options are read
-void choose_family_wake(volmesh::MeshCase& options, const TableReader& reader, const ScriptCall& call);
+void complete_layers(volmesh::MeshCase& options, TableReader& reader, const ScriptCall& call);
 
 /// Returns the function that the table has as first_height, unless the command line gives a number; null if there is none.
 /// \pre the options are not read yet

@@ -209,6 +209,13 @@ bool is_about_surface(const Error& error) {
   }
 }
 
+surfmesh::WrapOptions wrap_with_reading(surfmesh::WrapOptions wrap, const surfmesh::StitchOptions& reading) {
+  wrap.unit = reading.unit;
+  wrap.split_angle = reading.split_angle;
+  wrap.fluid = reading.fluid;
+  return wrap;
+}
+
 SurfaceValue auto_triangles(std::span<const InputPath> files, const AutoSurface& options, const Reuse& reuse, const RunContext& context) {
   ErrorInfo first;
   std::optional<SurfaceValue> open;  // surface of a model, perhaps of half a model
@@ -260,11 +267,7 @@ SurfaceValue auto_triangles(std::span<const InputPath> files, const AutoSurface&
   }
   if (const std::optional<std::string> sheet = sheet_of(items, stitching, context.part("sheet", k_repair_end, k_repair_end))) context.warn("auto: " + *sheet);
   try {
-    surfmesh::WrapOptions wrap = options.wrap;
-    wrap.unit = stitching.unit;
-    wrap.split_angle = stitching.split_angle;
-    wrap.fluid = stitching.fluid;
-    return wrap_surfaces(items, wrap, reuse, context.part("wrap", k_repair_end, 1.0));
+    return wrap_surfaces(items, wrap_with_reading(options.wrap, stitching), reuse, context.part("wrap", k_repair_end, 1.0));
   } catch (const Error& error) {
     if (error.code() == ErrorCode::cancelled) throw;
     if (folded) return accepted(std::move(*folded), context);

@@ -39,6 +39,9 @@ struct AutoSurface {
   surfmesh::RemeshOptions remesh = {};
 };
 
+/// Returns the options of wrap, with the unit, the fluid and the split angle of reading.
+surfmesh::WrapOptions wrap_with_reading(surfmesh::WrapOptions wrap, const surfmesh::StitchOptions& reading);
+
 /// Returns a surface that can be meshed, with as few changes as its files allow. Surfaces that can be meshed as they are have the bytes of read_wall or
 /// mesh_model_files. Models whose faces cross or fold, or that are open, are first triangulated as they are (crossings = "ignore") and then treated as
 /// triangulations.

@@ -2,6 +2,7 @@
 
 #include <utility>
 
+#include "scripting/lua/verb_tools.h"
 #include "scripting/values/wall_files.h"
 
 namespace sterna::scripting {
@@ -22,6 +23,19 @@ SurfaceSoup soup_of_surface(const SurfaceValue& surface, double unit) {
 }
 
 }  // namespace
+
+std::vector<UnionItem> read_surfaces_and_files(TableReader& reader, const ScriptCall& call) {
+  std::vector<UnionItem> items;
+  std::size_t number = 0;
+  for (const ScriptValue& item : reader.items()) {
+    ++number;
+    if (const auto* surface = std::get_if<SurfaceHandle>(&item)) items.emplace_back(*surface);
+    else if (const auto* name = std::get_if<std::string>(&item)) items.emplace_back(find_input(call, *name));
+    else reader.add_problem("entry " + std::to_string(number) + ": expected a surface or a file name, not " + std::string(type_text(item)));
+  }
+  if (number == 0) reader.add_problem("needs a surface or a file name");
+  return items;
+}
 
 SurfaceItems read_items(std::span<const UnionItem> items, const surfmesh::StitchOptions& options, const RunContext& context) {
   SurfaceItems all;

@@ -1,4 +1,4 @@
-// Files and surfaces as soups, for the verbs that accept defective surfaces: repair and wrap.
+// Files and surfaces as soups, for the verbs that accept defective surfaces (repair and wrap) and for union.
 #pragma once
 
 #include <map>
@@ -8,6 +8,8 @@
 
 #include "geom/base/run_context.h"
 #include "geom/mesh/surface_soup.h"
+#include "scripting/lua/script_call.h"
+#include "scripting/lua/table_reader.h"
 #include "scripting/values/verbs.h"
 
 namespace sterna::scripting {
@@ -18,6 +20,8 @@ struct SurfaceItems {
   std::map<std::string, PatchKind> kinds;  ///< kinds of patches by name
 };
 
+/// Returns the unnamed entries of a verb's table, which are surfaces and names of files; notes problems.
+std::vector<UnionItem> read_surfaces_and_files(TableReader& reader, const ScriptCall& call);
 /// Reads the items: files with the unit of the options; surfaces are in metres.
 /// \throws Error of io
 SurfaceItems read_items(std::span<const UnionItem> items, const surfmesh::StitchOptions& options, const RunContext& context);

@@ -1,14 +1,10 @@
 #include "scripting/verbs/draw_command.h"
 
-#include <CLI/CLI.hpp>
-
 #include "geom/base/error.h"
 #include "io/file/format_table.h"
 #include "io/file/input_hash.h"
 #include "io/file/surface_file.h"
 #include "io/output/atomic_file.h"
-#include "scripting/command/cli_options.h"
-#include "scripting/terminal/exit_status.h"
 #include "scripting/values/models.h"
 #include "scripting/values/surface_manifest.h"
 #include "scripting/values/verbs.h"
@@ -16,17 +12,8 @@
 namespace sterna::scripting {
 namespace {
 
-// Fractions of the progress of `sterna draw`.
-constexpr double k_draw_read_end = 0.4, k_check_end = 0.6;
-
-/// Adds "1600x1000" as two options.
-void add_size(OptionOverrides& options, const std::string& text) {
-  const std::size_t by = text.find('x');
-  if (by == std::string::npos || by == 0 || by + 1 == text.size())
-    throw CLI::ValidationError("--size", "\"" + text + "\" is not WIDTHxHEIGHT, such as 1600x1000");
-  options.emplace_back("width", text.substr(0, by));
-  options.emplace_back("height", text.substr(by + 1));
-}
+/// Fraction of the progress after a check.
+constexpr double k_check_end = 0.6;
 
 void write_bytes(const std::string& png, const DrawOptions& options, const std::filesystem::path& path, const RunContext& context) {
   io::write_whole(path, png);
@@ -34,22 +21,6 @@ void write_bytes(const std::string& png, const DrawOptions& options, const std::
 }
 
 }  // namespace
-
-CLI::App* add_draw_arguments(CLI::App& app, DrawCommand& draw) {
-  CLI::App* command =
-      app.add_subcommand("draw", "draw a surface or volume mesh as a PNG picture: walls, cells along a plane, colours by quality; needs no display");
-  command->add_option("mesh", draw.input, "surface or mesh file. `sterna formats` lists the formats")->required();
-  command->add_option("-o,--output", draw.output, "picture.png")->required();
-  DrawOptions options;
-  add_schema_options(*command, sterna::options_of(options), draw.options);
-  command
-      ->add_option_function<std::string>(
-          "--size", [&draw](const std::string& text) { add_size(draw.options, text); }, "width and height in pixels, 1600x1000")
-      ->type_name("WIDTHxHEIGHT");
-  command->footer(
-      "sterna draw mesh.su2 -o wing.png --view iso --color quality; --cut \"leading edge\"; --cut x=1.2 --focus \"1.2,3,0 radius=0.1\" --color volume");
-  return command;
-}
 
 std::variant<TriMesh, HybridMesh> read_drawable(const InputPath& input, double unit, const RunContext& context) {
   if (is_model_file(input.path))
@@ -89,20 +60,6 @@ void write_picture(const TriMesh& surface, const DrawOptions& options, std::stri
                  .attempted = "draw: option places",
                  .problem = "the worst locations exist for volume meshes only; this file is a surface"});
   write_bytes(draw_png(surface, options, name, {}, context.part("draw", k_check_end, 1.0)), options, path, context);
-}
-
-int execute(const DrawCommand& command, const CommandContext& context) {
-  require_picture_output(command.output);
-  DrawOptions options;
-  set_options(sterna::options_of(options), command.options, context);
-  require_draw_options(options);
-  const auto drawable = read_drawable({command.input, command.input}, options.unit, context.run.part("read", 0.0, k_draw_read_end));
-  const std::string name = std::filesystem::path(command.input).filename().string();
-  const RunContext run = context.run.part("draw", k_draw_read_end, 1.0);
-  if (const auto* mesh = std::get_if<HybridMesh>(&drawable)) write_picture(*mesh, nullptr, options, name, command.output, run);
-  else write_picture(std::get<TriMesh>(drawable), options, name, command.output, run);
-  context.console.end_progress();
-  return k_exit_success;
 }
 
 }  // namespace sterna::scripting

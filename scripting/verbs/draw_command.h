@@ -1,4 +1,4 @@
-// `sterna draw`, and the functions that it has in common with the verb draw{}: reading of the input, drawing, and writing of the PNG.
+// Parts of the verb draw{}: reading of the input, drawing, and writing of the PNG.
 #pragma once
 
 #include <filesystem>
@@ -7,25 +7,11 @@
 #include <string_view>
 #include <variant>
 
+#include "geom/base/run_context.h"
 #include "geom/draw/draw.h"
-#include "scripting/command/command_context.h"
 #include "scripting/lua/input_path.h"
 
-namespace CLI {
-class App;
-}
-
 namespace sterna::scripting {
-
-struct DrawCommand {
-  std::string input;
-  std::filesystem::path output;
-  OptionOverrides options;
-};
-
-/// Adds `sterna draw INPUT -o FILE.png` with one option for each of DrawOptions, and --size.
-CLI::App* add_draw_arguments(CLI::App& app, DrawCommand& draw);
-int execute(const DrawCommand& command, const CommandContext& context);
 
 /// Returns a surface or volume mesh from a file of that unit (m); a file of a volume format without cells is read as a surface.
 /// \throws Error of io; (bad_argument) for models, which have no mesh yet

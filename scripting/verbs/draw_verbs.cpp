@@ -117,15 +117,10 @@ ScriptValue draw_object(const ScriptCall& call) {
   return std::monostate{};
 }
 
-std::string draw_help() {
-  DrawOptions options;
-  return options_help(sterna::options_of(options));
-}
-
 constexpr std::array<ScriptVerb, 1> k_draw_verbs = {{{"draw", k_draw_usage,
                                                       "Draws a mesh, a surface or a file of either as a PNG picture: walls coloured by patch or quantity, "
                                                       "cells along a plane, the worst locations. Needs no display (docs/draw.md).",
-                                                      draw_object, draw_help, true, "nothing"}}};
+                                                      draw_object, nullptr, true, "nothing", false, held_options<DrawOptions>}}};
 
 }  // namespace
 

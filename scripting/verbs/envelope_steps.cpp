@@ -116,9 +116,7 @@ ScriptValue make_initial(const ScriptCall& call) {
   if (table.fields.contains("wakes")) options.wakes = read_wakes(reader, call);
   if (table.fields.contains("patches")) options.patches = read_layer_rules(reader);
   apply_overrides(call, schema);
-  choose_solve_for(options, reader, call);
-  choose_boundary_layer(options, reader, call);
-  choose_family_wake(options, reader, call);
+  complete_layers(options, reader, call);
   MeshCase known = options;
   if (wall) known.patches.insert(known.patches.end(), wall->layers.begin(), wall->layers.end());  // the rules of the surface may give the first height
   reader.require(volmesh::required_options_of(known));

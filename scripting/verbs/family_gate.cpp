@@ -118,7 +118,7 @@ constexpr std::array<ScriptVerb, 1> k_family_gate_verbs = {{
     {"check_family", k_family_gate_usage,
      "Checks that meshes are members of one family, each finer than the previous mesh by the same factor in all directions. Prints measured and expected "
      "values of each rule.",
-     check_family_verb, check_family_help, true, "table"},
+     check_family_verb, check_family_help, true, "table", false, held_options<FamilyTolerances>},
 }};
 
 }  // namespace
@@ -134,19 +134,20 @@ FamilyMember member_of(const MeshValue& mesh, std::string name, const std::files
   return member;
 }
 
-int execute(const CheckFamilyCommand& command, const CommandContext& context) {
+int check_family_command(const CommandLine& line, const CommandContext& context) {
   FamilyTolerances tolerances;
-  set_options(sterna::options_of(tolerances), command.options, context);
+  set_options(sterna::options_of(tolerances), line.options, context);
   std::vector<FamilyMember> members;
-  const double n = static_cast<double>(command.inputs.size());
-  for (const std::string& name : command.inputs) {
+  const std::vector<std::string>& files = line.all("meshes");
+  const double n = static_cast<double>(files.size());
+  for (const std::string& name : files) {
     const double i = static_cast<double>(members.size());
     const RunContext part = context.run.part("check-family", i / n, (i + 1) / n);
     members.push_back(member_of(read_mesh({name, name}, part), name, name, part));
   }
   const FamilyReport report = check_family(std::move(members), tolerances);
   context.console.end_progress();
-  context.console.print(command.is_json ? to_json(report) : to_text(report));
+  context.console.print(line.flag("json") ? to_json(report) : to_text(report));
   return report.state() == GateState::fail ? k_exit_invalid : k_exit_success;
 }
 

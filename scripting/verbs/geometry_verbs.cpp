@@ -349,8 +349,8 @@ std::string geometry_help_of() {
 }
 
 constexpr std::array<ScriptVerb, 5> k_geometry_verbs = {{
-    {"read_cad", k_read_cad_usage, "Reads a STEP, IGES or BREP file, repairs it and reports what it found.", read_cad_verb, geometry_help_of<ReadCadOptions>,
-     true, "model", true},
+    {"read_cad", k_read_cad_usage, "Reads a STEP, IGES or BREP file, repairs it and reports what it found.", read_cad_verb, nullptr, true, "model", true,
+     held_options<ReadCadOptions>},
     {"read_smx", k_read_smx_usage, "Reads a geometry file of sumo. Its components stay separate.", read_description<read_smx_model>, control_settings_help,
      true, "model", true},
     {"read_cpacs", k_read_cpacs_usage, "Reads a CPACS file. Its components stay separate.", read_description<read_cpacs_model>, control_settings_help, true,

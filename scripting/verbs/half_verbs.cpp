@@ -75,7 +75,7 @@ constexpr std::array<ScriptVerb, 1> k_half_verbs = {{
     {"half", k_half_usage,
      "Cuts a model or a surface at its plane of symmetry and returns one half: open there, with its boundary exactly in the plane. Half models are returned "
      "unchanged.",
-     make_half, half_help, true, "model or surface", true},
+     make_half, half_help, true, "model or surface", true, held_options<HalfOptions>},
 }};
 
 }  // namespace

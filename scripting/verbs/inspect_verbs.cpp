@@ -155,11 +155,7 @@ ScriptValue inspect(const ScriptCall& call) {
     if (const auto* quantity = std::get_if<QuantityHandle>(value)) request.flow = (*quantity)->flow;
     else reader.add_problem("flow: expected flow{ mach = 0.78, altitude = 11000, length = 4.2 }, not " + std::string(type_text(*value)));
   }
-  std::filesystem::path output;
-  if (const ScriptValue* value = reader.field("output")) {
-    if (const auto* name = std::get_if<std::string>(value)) output = output_path(call, *name);
-    else reader.add_problem("output: expected the name of a .vtu or .png file, not " + std::string(type_text(*value)));
-  }
+  const std::filesystem::path output = output_entry(reader, call, "output", "the name of a .vtu or .png file");
   for (const OptionTable* part : {&limits, &surface}) apply_overrides(call, *part);
   complete_volume_case(reader, call, volume, made);
   if (reader.is_given("family", "refinement")) recipe.options.refinement = made.options.family.refinement;  // as `sterna mesh`

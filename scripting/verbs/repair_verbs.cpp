@@ -2,9 +2,12 @@
 
 #include <array>
 
+#include "io/field/trouble_vtu.h"
+#include "io/output/atomic_file.h"
 #include "scripting/lua/verb_tools.h"
 #include "scripting/values/filled_crevices.h"
 #include "scripting/values/repair_surfaces.h"
+#include "scripting/values/surface_items.h"
 #include "scripting/values/wrap_surfaces.h"
 
 namespace sterna::scripting {
@@ -15,7 +18,10 @@ constexpr std::string_view k_repair_usage = "repair{ \"torn.stl\", gap = 1e-3, h
 std::string repair_help() {
   surfmesh::StitchOptions stitching;
   surfmesh::RepairOptions options;
-  return options_help(repair_options(stitching, options));
+  return options_help(repair_options(stitching, options)) +
+         "Writes files: changes = \"changes.vtu\" (the changed and removed facets), report = \"changes.json\" (every change with kind, location, size and "
+         "facets, and "
+         "the distances)\n";
 }
 
 ScriptValue repair_parts(const ScriptCall& call) {
@@ -24,27 +30,22 @@ ScriptValue repair_parts(const ScriptCall& call) {
   surfmesh::RepairOptions options;
   const OptionTable schema = repair_options(stitching, options);
   TableReader reader(table, call.attempted());
-  std::vector<UnionItem> items;
-  std::size_t number = 0;
-  for (const ScriptValue& item : reader.items()) {
-    ++number;
-    if (const auto* surface = std::get_if<SurfaceHandle>(&item)) items.emplace_back(*surface);
-    else if (const auto* name = std::get_if<std::string>(&item)) items.emplace_back(find_input(call, *name));
-    else reader.add_problem("entry " + std::to_string(number) + ": expected a surface or a file name, not " + std::string(type_text(item)));
-  }
-  if (number == 0) reader.add_problem("needs a surface or a file name");
+  const std::vector<UnionItem> items = read_surfaces_and_files(reader, call);
+  const std::filesystem::path changes = output_entry(reader, call, "changes", "the name of a .vtu file"),
+                              report = output_entry(reader, call, "report", "the name of a .json file");
   reader.read_options(schema);
   apply_overrides(call, schema);
   reader.finish();
-  return std::make_shared<const SurfaceValue>(repair_surfaces(items, stitching, options, call.session.reuse(), call.session.context.part("repair", 0.0, 1.0)));
+  const auto write_report = [&](const surfmesh::RepairReport& made) {
+    if (!changes.empty() && !made.changes.empty()) io::write_trouble_vtu(changed_facets(made), changes);
+    if (!report.empty()) io::write_whole(report, repair_json(made));
+  };
+  const bool is_reported = !changes.empty() || !report.empty();
+  return std::make_shared<const SurfaceValue>(repair_surfaces(items, stitching, options, call.session.reuse(), call.session.context.part("repair", 0.0, 1.0),
+                                                              is_reported ? write_report : std::function<void(const surfmesh::RepairReport&)>()));
 }
 
 constexpr std::string_view k_crevices_usage = "fill_crevices{ wall, width = 0.05 }";
-
-std::string crevices_help() {
-  volmesh::CreviceOptions options;
-  return options_help(sterna::options_of(options));
-}
 
 ScriptValue make_filled_crevices(const ScriptCall& call) {
   const ScriptTable table = table_argument(call, 0, k_crevices_usage);
@@ -65,11 +66,11 @@ constexpr std::array<ScriptVerb, 2> k_repair_verbs = {{
     {"fill_crevices", k_crevices_usage,
      "Makes narrow crevices and gaps of a wall solid, up to a width: no boundary layer has room there, and solvers diverge beside vertices without a layer. "
      "Reports location, width, volume and distance of each.",
-     make_filled_crevices, crevices_help, true, "surface"},
+     make_filled_crevices, nullptr, true, "surface", false, held_options<volmesh::CreviceOptions>},
     {"repair", k_repair_usage,
      "Closes seams and holes of surfaces, cuts crossing facets, keeps the outer hull, removes sheets and inner walls, and recognises half models. Changes as "
      "little as possible and reports each change.",
-     repair_parts, repair_help, true, "surface"},
+     repair_parts, repair_help, true, "surface", false, held_table<repair_options, surfmesh::StitchOptions, surfmesh::RepairOptions>},
 }};
 
 /// Returns true if an entry (true, false or a table) requests a step. Options of a table go to `schema`.
@@ -111,11 +112,7 @@ SurfaceReader read_surface_entry(TableReader& reader, const ScriptCall& call) {
     };
   if (is_wrapped)
     return [requested](const std::vector<InputPath>& files, const surfmesh::StitchOptions& stitching, const RunContext& context, const Reuse& reuse) {
-      surfmesh::WrapOptions wrap = requested.wrap;
-      wrap.unit = stitching.unit;
-      wrap.split_angle = stitching.split_angle;
-      wrap.fluid = stitching.fluid;
-      return wrap_surfaces(std::vector<UnionItem>(files.begin(), files.end()), wrap, reuse, context);
+      return wrap_surfaces(std::vector<UnionItem>(files.begin(), files.end()), wrap_with_reading(requested.wrap, stitching), reuse, context);
     };
   return {};
 }

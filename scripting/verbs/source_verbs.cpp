@@ -134,13 +134,7 @@ ScriptValue make_wake_behind(const ScriptCall& call, const SurfaceHandle& wall) 
     info.attempted = call.attempted();
     throw Error(std::move(info));
   }
-  ScriptTable made;
-  made.items = {script_value_of(source.from), script_value_of(source.to)};
-  for (const Option& option : options_of(source, *kind_named("wake"))) {
-    made.fields[std::string(option.name)] = script_value_of(option.get());
-  }
-  made.fields["shape"] = std::string("wake");
-  return std::make_shared<const ScriptTable>(std::move(made));
+  return table_of_source(source);
 }
 
 ScriptValue make_wake(const ScriptCall& call) {
@@ -268,6 +262,17 @@ SizeSource wake_of_text(const std::string& text, const TriMesh& wall) {
                  .problem = others.front() + " is not NAME=VALUE",
                  .hint = "such as --wake \"length=2 size=5cm\""});
   return volmesh::wake_behind(wall, wake);
+}
+
+TableHandle table_of_source(SizeSource source) {
+  const KindOfSource& kind = *std::ranges::find(k_source_kinds, source.kind, &KindOfSource::kind);
+  ScriptTable made;
+  made.items = {script_value_of(source.from)};
+  if (kind.n_points == 2) made.items.push_back(script_value_of(source.to));
+  for (const Option& option : options_of(source, kind))
+    if (option.has_value()) made.fields[std::string(option.name)] = script_value_of(option.get());
+  made.fields["shape"] = std::string(kind.verb);
+  return std::make_shared<const ScriptTable>(std::move(made));
 }
 
 ScriptValue make_sphere_source(const ScriptCall& call) { return make_source(call, *kind_named("sphere")); }

@@ -25,6 +25,9 @@ std::vector<volmesh::SizeSource> read_sources(TableReader& reader, const ScriptC
 /// \throws Error(bad_argument, unknown_option)
 volmesh::SizeSource source_of_text(const std::string& text);
 
+/// Returns a source as the table that its verb makes.
+TableHandle table_of_source(volmesh::SizeSource source);
+
 /// Parses "length=2 size=0.05 direction=1,0,0.05"; may be empty.
 /// \throws Error(bad_argument, unknown_option), also as volmesh::wake_behind
 volmesh::SizeSource wake_of_text(const std::string& text, const TriMesh& wall);

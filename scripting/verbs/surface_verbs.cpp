@@ -153,10 +153,10 @@ constexpr std::array<ScriptVerb, 2> k_surface_verbs = {{
     {"remesh", k_remesh_usage,
      "Remeshes a surface by curvature and sizes, as surface_mesh does for a model. Sliver triangles are removed, sharp edges and patches are kept, a coarse "
      "surface of a smooth body becomes smooth.",
-     make_remesh, remesh_help, true, "surface"},
+     make_remesh, remesh_help, true, "surface", false, held_options<surfmesh::RemeshOptions>},
     {"surface_mesh", k_surface_mesh_usage,
      "Meshes the faces of models with triangles, closed where the models are closed. The result is the wall for volume_mesh.", make_surface_mesh,
-     surface_mesh_help, true, "surface"},
+     surface_mesh_help, true, "surface", false, held_options<surfmesh::SurfaceMeshOptions>},
 }};
 
 }  // namespace

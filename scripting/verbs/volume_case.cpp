@@ -22,9 +22,7 @@ void read_volume_case(TableReader& reader, const ScriptCall& call, const OptionT
 
 void complete_volume_case(TableReader& reader, const ScriptCall& call, const OptionTable& schema, VolumeCase& made) {
   apply_overrides(call, schema);
-  choose_solve_for(made.options, reader, call);
-  choose_boundary_layer(made.options, reader, call);
-  choose_family_wake(made.options, reader, call);
+  complete_layers(made.options, reader, call);
 }
 
 void require_volume_options(TableReader& reader, const VolumeCase& made, const SurfaceValue* wall) {

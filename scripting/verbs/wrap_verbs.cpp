@@ -2,7 +2,10 @@
 
 #include <array>
 
+#include "io/field/trouble_vtu.h"
+#include "io/output/atomic_file.h"
 #include "scripting/lua/verb_tools.h"
+#include "scripting/values/surface_items.h"
 #include "scripting/values/wrap_surfaces.h"
 
 namespace sterna::scripting {
@@ -12,7 +15,10 @@ constexpr std::string_view k_wrap_usage = "wrap{ \"torn.stl\", \"tail.stl\", edg
 
 std::string wrap_help() {
   surfmesh::WrapOptions options;
-  return options_help(sterna::options_of(options));
+  return options_help(sterna::options_of(options)) +
+         "Writes files: changes = \"changes.vtu\" (the triangles that close openings, and those at leaks), report = \"changes.json\" (every closure and leak "
+         "with kind, "
+         "location and size, and the distances)\n";
 }
 
 ScriptValue wrap_parts(const ScriptCall& call) {
@@ -20,25 +26,25 @@ ScriptValue wrap_parts(const ScriptCall& call) {
   surfmesh::WrapOptions options;
   const OptionTable schema = sterna::options_of(options);
   TableReader reader(table, call.attempted());
-  std::vector<UnionItem> items;
-  std::size_t number = 0;
-  for (const ScriptValue& item : reader.items()) {
-    ++number;
-    if (const auto* surface = std::get_if<SurfaceHandle>(&item)) items.emplace_back(*surface);
-    else if (const auto* name = std::get_if<std::string>(&item)) items.emplace_back(find_input(call, *name));
-    else reader.add_problem("entry " + std::to_string(number) + ": expected a surface or a file name, not " + std::string(type_text(item)));
-  }
-  if (number == 0) reader.add_problem("needs a surface or a file name");
+  const std::vector<UnionItem> items = read_surfaces_and_files(reader, call);
+  const std::filesystem::path changes = output_entry(reader, call, "changes", "the name of a .vtu file"),
+                              report = output_entry(reader, call, "report", "the name of a .json file");
   reader.read_options(schema);
   apply_overrides(call, schema);
   reader.finish();
-  return std::make_shared<const SurfaceValue>(wrap_surfaces(items, options, call.session.reuse(), call.session.context.part("wrap", 0.0, 1.0)));
+  const auto write_report = [&](const surfmesh::WrapReport& made) {
+    if (!changes.empty() && !made.drawing.triangles.empty()) io::write_trouble_vtu(closed_facets(made), changes);
+    if (!report.empty()) io::write_whole(report, wrap_json(made));
+  };
+  const bool is_reported = !changes.empty() || !report.empty();
+  return std::make_shared<const SurfaceValue>(wrap_surfaces(items, options, call.session.reuse(), call.session.context.part("wrap", 0.0, 1.0),
+                                                            is_reported ? write_report : std::function<void(const surfmesh::WrapReport&)>()));
 }
 
 constexpr std::array<ScriptVerb, 1> k_wrap_verbs = {{
     {"wrap", k_wrap_usage,
      "Wraps damaged surfaces in one closed surface close to them, with their sharp edges and patches. Reports what was closed and what disappeared inside.",
-     wrap_parts, wrap_help, true, "surface"},
+     wrap_parts, wrap_help, true, "surface", false, held_options<surfmesh::WrapOptions>},
 }};
 
 }  // namespace

@@ -1,6 +1,5 @@
 #include "scripting/view/view_command.h"
 
-#include <CLI/CLI.hpp>
 #include <cstdlib>
 #include <optional>
 
@@ -9,8 +8,7 @@
 #include "io/file/format_table.h"
 #include "io/output/atomic_file.h"
 #include "io/output/scratch_folder.h"
-#include "scripting/command/cli_options.h"
-#include "scripting/interpreter/script_args.h"
+#include "scripting/cache/stage_cache.h"
 #include "scripting/terminal/exit_status.h"
 #include "scripting/values/models.h"
 #include "scripting/view/finished_series.h"
@@ -22,8 +20,6 @@
 
 namespace sterna::scripting {
 namespace {
-
-constexpr int k_last_port = 65535;
 
 /// Returns a script that reads the file, so that files are shown in the same way as results of scripts.
 std::string reading_script(const std::filesystem::path& input) {
@@ -60,49 +56,26 @@ std::optional<ChildProcess> open_browser(const std::string& address, const Comma
 
 }  // namespace
 
-CLI::App* add_view_arguments(CLI::App& app, ViewCommand& view) {
-  CLI::App* command = app.add_subcommand("view", "open the workbench: a page in the browser that shows the results of a script and follows its changes");
-  command->add_option("file", view.input, "case.lua; or a file of a model, surface or volume mesh; or the folder of a series that was run")->required();
-  command
-      ->add_option_function<std::vector<std::string>>(
-          "arguments",
-          [&view](const std::vector<std::string>& texts) {
-            for (const std::string& text : texts) view.arguments.push_back(split_argument(text));
-          },
-          "arguments that the script reads with args{ alpha = 0 }, e.g. alpha=4 height=2mm half=true")
-      ->type_name("NAME=VALUE ...");
-  command->add_option("--port", view.port, "port on 127.0.0.1; default: any free port")->check(CLI::Range(1, k_last_port))->type_name("N");
-  command->add_flag("--no-browser", view.is_without_browser, "only print the address");
-  add_set_option(*command, view.overrides);
-  command->add_option("--cache", view.cache, "store results of stages in this folder; default: until the workbench ends")->type_name("FOLDER");
-  command
-      ->add_option("--cache-limit", view.cache_limit,
-                   "largest size of that folder in bytes; when exceeded, the least recently used results are removed; default: 20e9")
-      ->check(CLI::PositiveNumber)
-      ->type_name("BYTES");
-  command->add_flag("--worker", view.is_worker, "")->group("");  // not listed in the help: see view_worker.h
-  command->footer("sterna view case.lua span=11 --port 8123. Ctrl-C ends it. From another machine: ssh -L 8123:127.0.0.1:8123 HOST. See docs/view.md.");
-  return command;
-}
-
-int execute(const ViewCommand& command, const CommandContext& context) {
-  if (command.is_worker) {
-    const StageCache cache(CacheSettings{.folder = command.cache, .limit = command.cache_limit});
-    return run_view_worker({.script = command.input, .overrides = command.overrides, .cache = &cache}, context);
+int view_command(const CommandLine& line, const CommandContext& context) {
+  const std::filesystem::path input = line.word("file");
+  const double cache_limit = line.cache_limit.value_or(k_cache_limit);
+  if (line.flag("worker")) {
+    const StageCache cache(CacheSettings{.folder = line.cache, .limit = cache_limit});
+    return run_view_worker({.script = input, .overrides = line.set, .cache = &cache}, context);
   }
   if (view_page().empty())
     throw Error({.code = ErrorCode::unsupported_format,
                  .attempted = "sterna view",
                  .problem = "this build has no page: npm was missing, or could not get the page's libraries",
                  .hint = "install npm and run cmake again"});
-  require_input(command.input);
+  require_input(input);
   const io::ScratchFolder session("view");
-  const bool is_script = command.input.extension() == ".lua";
-  const std::filesystem::path script = is_script ? command.input : session.path() / "view.lua";
+  const bool is_script = input.extension() == ".lua";
+  const std::filesystem::path script = is_script ? input : session.path() / "view.lua";
   SeriesCases series;
-  if (std::filesystem::is_directory(command.input)) series = read_series_cases(command.input);
-  if (!is_script) io::write_whole(script, series.script.empty() ? reading_script(command.input) : series.script);
-  const std::filesystem::path cache = command.cache.empty() ? session.path() / "cache" : command.cache;
+  if (std::filesystem::is_directory(input)) series = read_series_cases(input);
+  if (!is_script) io::write_whole(script, series.script.empty() ? reading_script(input) : series.script);
+  const std::filesystem::path cache = line.cache.empty() ? session.path() / "cache" : line.cache;
   std::vector<std::string> words = {std::filesystem::read_symlink("/proc/self/exe").string(),
                                     "view",
                                     script.string(),
@@ -111,20 +84,21 @@ int execute(const ViewCommand& command, const CommandContext& context) {
                                     "--threads=" + std::to_string(context.run.threads()),
                                     "--seed=" + std::to_string(context.run.seed()),
                                     "--cache=" + cache.string(),
-                                    "--cache-limit=" + std::to_string(command.cache_limit)};
-  for (const auto& [name, value] : command.overrides) words.push_back("--set=" + name + "=" + value);
-  Workbench bench({.input = command.input,
+                                    "--cache-limit=" + std::to_string(cache_limit)};
+  for (const auto& [name, value] : line.set) words.push_back("--set=" + name + "=" + value);
+  Workbench bench({.input = input,
                    .script = script,
                    .is_made_script = !is_script,
-                   .arguments = command.arguments,
+                   .arguments = line.arguments,
                    .words = std::move(words),
                    .page = view_page(),
                    .cases = std::move(series.json),
                    .pictures = std::move(series.pictures)});
-  const PageServer server(command.port, [&](const PageRequest& request) { return bench.answer(request); });
+  const std::string port = line.word("port");
+  const PageServer server(port.empty() ? 0 : std::stoi(port), [&](const PageRequest& request) { return bench.answer(request); });
   context.console.print(server.address());
-  context.run.info("shows " + command.input.string() + "; press Ctrl-C to end");
-  const std::optional<ChildProcess> browser = command.is_without_browser ? std::nullopt : open_browser(server.address(), context);
+  context.run.info("shows " + input.string() + "; press Ctrl-C to end");
+  const std::optional<ChildProcess> browser = line.flag("no-browser") ? std::nullopt : open_browser(server.address(), context);
   if (context.stops_itself) context.stops_itself(true);
   bench.follow(context.run.stop_token());
   return k_exit_success;

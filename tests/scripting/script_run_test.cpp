@@ -208,8 +208,7 @@ TEST(ScriptRun, ScriptOfEveryOptionNamesEveryOption) {
   std::size_t n_options = 0;
   for (const std::span<const ScriptVerb> verbs : {script_verbs(), mesh_methods(), model_methods(), component_methods()})
     for (const ScriptVerb& verb : verbs) {
-      if (!verb.options_help) continue;
-      std::istringstream help(verb.options_help());
+      std::istringstream help(help_on_options(verb));
       for (std::string line; std::getline(help, line);) {
         const std::size_t start = line.find_first_not_of(' '), end = line.find(" = ");
         if (end == std::string::npos || line.find_first_of(' ', start) != end) continue;
