@@ -292,9 +292,9 @@ MeshValue fill(const MeshCommand& command, SurfaceValue wall, const volmesh::Mes
   recipe.options.refinement = options.family.refinement;
   recipe.sources = sources_of(command.volume.sources);
   set_options(sterna::options_of(recipe.options), command.remesh, context);
-  const std::size_t n_changes = wall.changes.size();
+  const std::size_t n_steps = wall.history.size();
   const SurfaceValue first = without_slivers(wall, recipe, part, reuse);
-  const bool is_new = first.changes.size() > n_changes;
+  const bool is_new = first.history.size() > n_steps;
   try {
     return make_volume_mesh(first, options, command.stages, part, reuse);
   } catch (const Error& error) {
@@ -321,7 +321,6 @@ MeshValue make_mesh_of_models(const MeshCommand& command, const std::vector<Inpu
   volmesh::MeshCase volume_options;
   volume_options.patches = layer_rules_of(command.volume.patches, &recipe.patches);
   recipe.sources = sources_of(command.volume.sources);  // one source applies to wall and volume
-  if (!recipe.sources.empty()) recipe.sources_text = sources_text(recipe.sources, false);
   OptionTable table = volmesh::required_options_of(volume_options);
   add_preparation(command, requested, table);
   for (Option& option : model_surface_options(recipe.options, reading)) table.push_back(std::move(option));
@@ -537,7 +536,7 @@ int execute(const RepairCommand& command, const CommandContext& context) {
       repair_surfaces(items, stitching, options, {.cache = cache.get(), .lines = nullptr}, context.run.part("repair", 0.0, k_mesh_end), look);
   write_surface(repaired, command.output, context.run.part("write", k_mesh_end, 1.0));
   context.console.end_progress();
-  for (const std::string& change : repaired.changes) context.run.info("changed: " + change);
+  for (const std::string& change : changes_of(repaired.history)) context.run.info("changed: " + change);
   context.run.info("wrote " + command.output.string() + ": " + describe(repaired));
   return k_exit_success;
 }

@@ -103,7 +103,6 @@ int execute(const SurfaceCommand& command, const CommandContext& context) {
   for (const auto& option : of_stages) set_options(stage_of(option.first), {option}, context);
   const std::vector<volmesh::PatchRule> layers = layer_rules_of(command.patches, &recipe.patches);
   for (const std::string& source : command.sources) recipe.sources.push_back(source_of_text(source));
-  if (!recipe.sources.empty()) recipe.sources_text = sources_text(recipe.sources, false);
   refuse_on_triangulations(command);
   for (const auto& output : command.outputs) require_surface_output(output);
   std::vector<InputPath> inputs;
@@ -118,7 +117,7 @@ int execute(const SurfaceCommand& command, const CommandContext& context) {
   add_layer_rules(layers, surface);
   for (const auto& output : command.outputs) write_surface(surface, output, context.run.part("write", 0.95, 1.0));
   context.console.end_progress();
-  for (const std::string& change : surface.changes) context.run.info("changed: " + change);
+  for (const std::string& change : changes_of(surface.history)) context.run.info("changed: " + change);
   for (const auto& output : command.outputs) context.run.info("wrote " + output.string() + ": " + describe(surface));
   return k_exit_success;
 }

@@ -110,7 +110,7 @@ class Preparing : public InspectFiles {
   static std::string done_by_auto(const std::string& path) {
     const std::vector<InputPath> files = {{path, path}};
     const SurfaceValue wall = auto_surface(files, {}, {}, RunContext({.threads = 2}));
-    for (const std::string& change : wall.changes)  // remesh may follow
+    for (const std::string& change : changes_of(wall.history))  // remesh may follow
       if (change.starts_with("repaired") || change.starts_with("wrapped")) return change.substr(0, change.find(':'));
     return "nothing";
   }
