@@ -13,6 +13,7 @@
 namespace sterna::scripting {
 
 /// Stores the figures of the comparison in the last step of the surface and logs a warning for each loss. If something differs, the figures are logged as well.
+/// \pre surface.history has the step that is compared as its last
 void note_change(SurfaceValue& surface, const GeometryChange& change, const RunContext& context, GeometryChangeUse use = GeometryChangeUse::keeps_shape);
 
 /// Compares a surface stitched from soups with these soups if facets were dropped. Adds a step for missing parts and warns about them.

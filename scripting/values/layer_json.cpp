@@ -83,13 +83,12 @@ Json layer_json(const volmesh::LayerReport& layer) {
 }
 
 Json slivers_json(const volmesh::SliverReport& slivers) {
-  return {{"given_triangles", slivers.n_given},
-          {"triangles", slivers.n_triangles},
-          {"needles", slivers.n_slivers},
-          {"flipped_edges", slivers.n_flips},
-          {"left", slivers.n_left},
-          {"over_budget", slivers.is_over_budget},
-          {"first_left", {slivers.first_left.x, slivers.first_left.y, slivers.first_left.z}}};
+  Json json = Json::object();
+  sliver_entries(slivers, [&](const char* name, const auto& member) {
+    if constexpr (std::is_same_v<decltype(member), const Point&>) json[name] = {member.x, member.y, member.z};
+    else json[name] = member;
+  });
+  return json;
 }
 
 Json certificate_json(const volmesh::EnvelopeCertificate& certificate) {

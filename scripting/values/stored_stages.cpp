@@ -97,14 +97,20 @@ Json stage_json(const volmesh::EnvelopeStage& envelope, std::int64_t n_wall_tria
   return json;
 }
 
+/// Calls entry(name, member) for the entries of "stage" that are always there. The same list writes and reads.
+template <class AnyFilled, class F>
+void stage_entries(AnyFilled& filled, const F& entry) {
+  entry("engine", filled.tets.engine);
+  entry("is_two_pass", filled.tets.is_two_pass);
+  entry("is_reproducible", filled.tets.is_reproducible);
+  entry("failures", filled.tetra_failures);
+  entry("curving_shares", filled.curving_shares);
+  entry("boundary_triangles_added_by_splits", filled.n_split_triangles);
+}
+
 Json stage_json(const volmesh::FilledStage& filled, std::int64_t n_wall_triangles) {
   Json json = stage_json(filled.envelope, n_wall_triangles);
-  json["engine"] = filled.tets.engine;
-  json["is_two_pass"] = filled.tets.is_two_pass;
-  json["is_reproducible"] = filled.tets.is_reproducible;
-  json["failures"] = filled.tetra_failures;
-  json["curving_shares"] = filled.curving_shares;
-  json["boundary_triangles_added_by_splits"] = filled.n_split_triangles;
+  stage_entries(filled, [&](const char* name, const auto& member) { json[name] = member; });
   json["needles"] = slivers_json(filled.slivers);
   if (filled.is_opened) json["is_opened"] = true;
   return json;
@@ -224,15 +230,18 @@ class StageJson {
 
   /// Returns the report on slivers.
   volmesh::SliverReport slivers() const {
-    const auto count = [&](const char* name) { return get<std::int64_t>(std::string("/stage/needles/") + name); };
-    const auto first = get<std::array<double, 3>>("/stage/needles/first_left");
-    return {.n_given = count("given_triangles"),
-            .n_triangles = count("triangles"),
-            .n_slivers = count("needles"),
-            .n_flips = count("flipped_edges"),
-            .n_left = count("left"),
-            .is_over_budget = get<bool>("/stage/needles/over_budget"),
-            .first_left = {first[0], first[1], first[2]}};
+    volmesh::SliverReport report;
+    sliver_entries(report, [&](const char* name, auto& member) {
+      using Member = std::remove_reference_t<decltype(member)>;
+      const std::string pointer = std::string("/stage/needles/") + name;
+      if constexpr (std::is_same_v<Member, Point>) {
+        const auto p = get<std::array<double, 3>>(pointer);
+        member = {p[0], p[1], p[2]};
+      } else {
+        member = get<Member>(pointer);
+      }
+    });
+    return report;
   }
 
   /// Returns the closed fans, which are present only in files of runs that had to close some.
@@ -261,12 +270,7 @@ volmesh::FilledStage filled_of(const StageJson& json, volmesh::EnvelopeStage env
   filled.layers = layers_of(content.opened ? std::move(*content.opened) : *content.mesh, *content.tetrahedra, file);
   filled.tets.new_points = std::move(content.tetrahedra->new_points);
   filled.tets.tetrahedra = std::move(content.tetrahedra->tetrahedra);
-  filled.tets.engine = json.get<std::string>("/stage/engine");
-  filled.tets.is_two_pass = json.get<bool>("/stage/is_two_pass");
-  filled.tets.is_reproducible = json.get<bool>("/stage/is_reproducible");
-  filled.tetra_failures = json.get<std::vector<std::string>>("/stage/failures");
-  filled.curving_shares = json.get<std::array<std::int64_t, 5>>("/stage/curving_shares");
-  filled.n_split_triangles = json.get<std::int64_t>("/stage/boundary_triangles_added_by_splits");
+  stage_entries(filled, [&](const char* name, auto& member) { member = json.get<std::remove_reference_t<decltype(member)>>(std::string("/stage/") + name); });
   filled.slivers = json.slivers();
   return filled;
 }
