@@ -4,6 +4,7 @@
 #include <cmath>
 #include <cstring>
 #include <limits>
+#include <map>
 #include <set>
 #include <string>
 #include <type_traits>
@@ -92,6 +93,12 @@ class LeafChanger {
   template <class I, class T>
   void visit_object(Column<I, T>& value) {
     visit(value.raw());
+  }
+  template <class Key, class T, class Less>
+  void visit_object(std::map<Key, T, Less>& value) {
+    if (is_filling()) value[Key{}];
+    if (is_next()) return value.clear();
+    for (auto& [key, item] : value) visit(item);
   }
   template <class T, std::size_t N>
   void visit_object(std::array<T, N>& value) {
