@@ -4,6 +4,7 @@
 #include <string>
 #include <vector>
 
+#include "geom/base/measured.h"
 #include "geom/base/run_context.h"
 #include "geom/mesh/check.h"
 #include "geom/mesh/hybrid_mesh.h"
@@ -17,11 +18,10 @@
 
 namespace sterna::volmesh {
 
-struct VolumeMeshResult {
-  HybridMesh mesh;
+/// How a volume mesh was made.
+struct VolumeMeshReport {
   LayerReport layer;
   EnvelopeCertificate certificate;
-  CheckReport check;
   ImproveReport improvement;
   std::string tetra_engine;                 ///< engine: "tetgen", "tetgen in two passes", "hxt" or "sterna"
   std::vector<std::string> tetra_failures;  ///< failures of the previous attempts, in order
@@ -29,8 +29,13 @@ struct VolumeMeshResult {
   std::int64_t n_split_triangles = 0;       ///< number of triangles of wall and outer boundary that were added, compared with the input
   SliverReport slivers;                     ///< report of the sliver splitting, which comes before the mesh
   bool is_reproducible = true;              ///< false if a time or memory limit affected the result
-  double tetra_engine_seconds = 0.0;        ///< time inside the engine alone, for the log only
-  double tetra_engine_peak_bytes = 0.0;     ///< for the log only
+  Measured tetra_engine_seconds;            ///< time inside the engine alone, for the log only
+  Measured tetra_engine_peak_bytes;         ///< for the log only
+};
+
+struct VolumeMeshResult : VolumeMeshReport {
+  HybridMesh mesh;
+  CheckReport check;
 };
 
 /// Makes a volume mesh. Steps: farfield, sliver triangles of the wall (split_slivers.h), envelope (build_envelope.h), extrusion and repair, certificate,

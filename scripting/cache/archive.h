@@ -16,6 +16,7 @@
 #include <vector>
 
 #include "geom/base/ids.h"
+#include "geom/base/measured.h"
 #include "geom/base/vec3.h"
 #include "scripting/cache/members.h"
 
@@ -187,12 +188,31 @@ struct Archive<std::shared_ptr<const T>> {
   }
 };
 
-/// Variants are supported for keys only.
+template <>
+struct Archive<Measured> {
+  static void write(ByteSink&, const Measured&) {}
+  static void read(ByteSource&, Measured&) {}
+};
+
+template <>
+struct Archive<std::monostate> {
+  static void write(ByteSink&, const std::monostate&) {}
+  static void read(ByteSource&, std::monostate&) {}
+};
+
 template <class... T>
 struct Archive<std::variant<T...>> {
   static void write(ByteSink& sink, const std::variant<T...>& value) {
     write_count(sink, value.index());
     std::visit([&](const auto& held) { write_value(sink, held); }, value);
+  }
+  static void read(ByteSource& source, std::variant<T...>& value) {
+    std::uint64_t index = 0;
+    source.take(&index, sizeof index);
+    const auto read_held = [&]<std::size_t... I>(std::index_sequence<I...>) {
+      return ((index == I && (read_value(source, value.template emplace<I>()), true)) || ...);
+    };
+    if (!read_held(std::index_sequence_for<T...>())) source.refuse();
   }
 };
 

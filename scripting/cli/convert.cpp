@@ -30,7 +30,7 @@ struct ConvertSettings {
 std::string convert_volume(const InputPath& input, const MeshValue& value, const std::filesystem::path& output, const ConvertSettings& settings,
                            const RunContext& context) {
   const HybridMesh& mesh = value.mesh;
-  const std::optional<std::string> manifest = fitting_manifest(input, value.inputs.front().hash, RunContext());
+  const std::optional<Json> manifest = fitting_manifest(input, value.inputs.front().hash, RunContext());
   write_mesh_alone(mesh, output, settings.format, settings.writing, context);
   if (manifest) write_manifest_of_copy(*manifest, output, io::rounding_of_volume_file(mesh, output, context, settings.format));
   else write_manifest(value, output, context, settings.format);
@@ -41,7 +41,7 @@ std::string convert_volume(const InputPath& input, const MeshValue& value, const
 std::string convert_surface(const InputPath& input, const std::filesystem::path& output, const std::string& format, const RunContext& context) {
   const std::string hash = io::hash_input(input.path);
   const bool has_manifest = read_surface_manifest(input, hash, context).has_value();
-  const std::optional<std::string> manifest = has_manifest ? fitting_manifest(input, hash, RunContext()) : std::nullopt;
+  const std::optional<Json> manifest = has_manifest ? fitting_manifest(input, hash, RunContext()) : std::nullopt;
   const TriMesh mesh = io::to_tri_mesh(io::read_surface_file(input.path, context.part("read", 0.0, k_convert_read_end)));
   io::write_surface_file(mesh, output, context.part("write", k_convert_read_end, 1.0), format);
   if (manifest) write_manifest_of_copy(*manifest, output);

@@ -206,9 +206,9 @@ MeshValue fill(const MeshRequest& request, SurfaceValue wall, const volmesh::Mes
   recipe.options.refinement = options.family.refinement;
   recipe.sources = sources_of(request.line.all("source"));
   set_options(sterna::options_of(recipe.options), request.remesh, context);
-  const std::size_t n_changes = wall.changes.size();
+  const std::size_t n_steps = wall.history.size();
   const SurfaceValue first = without_slivers(wall, recipe, part, reuse);
-  const bool is_new = first.changes.size() > n_changes;
+  const bool is_new = first.history.size() > n_steps;
   try {
     return make_volume_mesh(first, options, request.stages(), part, reuse);
   } catch (const Error& error) {
@@ -237,7 +237,6 @@ MeshValue mesh_files(const MeshRequest& request, const Reuse& reuse, const Comma
   std::vector<surfmesh::PatchSurfaceOptions> sizes;  // sizes of new triangles; remeshed_wall reads them again
   volume.patches = layer_rules_of(request.line.patches_of("patch"), is_model ? &recipe.patches : request.is_remeshed() ? &sizes : nullptr);
   if (is_model) recipe.sources = sources_of(request.line.all("source"));  // one source applies to wall and volume
-  if (!recipe.sources.empty()) recipe.sources_text = sources_text(recipe.sources, false);
   requested.stitching.allow_open = !is_model && request.line.flag("half");
   set_mesh_options(request, is_model, requested, volume, context);
   if (!is_model && !request.line.all("source").empty() && !request.is_remeshed())

@@ -105,7 +105,6 @@ int surface_command(const CommandLine& line, const CommandContext& context) {
   for (const auto& option : of_stages) set_options(stage_of(option.first), {option}, context);
   const std::vector<volmesh::PatchRule> layers = layer_rules_of(line.patches_of("patch"), &recipe.patches);
   for (const std::string& source : line.all("source")) recipe.sources.push_back(source_of_text(source));
-  if (!recipe.sources.empty()) recipe.sources_text = sources_text(recipe.sources, false);
   refuse_on_triangulations(line);
   for (const std::string& output : line.all("output")) require_surface_output(output);
   const std::vector<InputPath> inputs = input_paths(line.all("models"));
@@ -119,7 +118,7 @@ int surface_command(const CommandLine& line, const CommandContext& context) {
   add_layer_rules(layers, surface);
   for (const std::string& output : line.all("output")) write_surface(surface, output, context.run.part("write", 0.95, 1.0));
   context.console.end_progress();
-  for (const std::string& change : surface.changes) context.run.info("changed: " + change);
+  for (const std::string& change : changes_of(surface.history)) context.run.info("changed: " + change);
   for (const std::string& output : line.all("output")) context.run.info("wrote " + output + ": " + describe(surface));
   return k_exit_success;
 }

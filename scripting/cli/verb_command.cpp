@@ -95,7 +95,7 @@ int run_on_parts(std::string_view verb, const OptionTable& options, const Comman
   const SurfaceValue& surface = *std::get<SurfaceHandle>(made);
   write_made(surface, line, context);
   if (verb == "repair")
-    for (const std::string& change : surface.changes) context.run.info("changed: " + change);
+    for (const std::string& change : changes_of(surface.history)) context.run.info("changed: " + change);
   log_outputs(surface, line, context);
   return k_exit_success;
 }

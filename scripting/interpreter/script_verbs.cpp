@@ -300,11 +300,11 @@ ScriptValue mesh_field(const ScriptCall& call) {
                    {"cells", cells.total()},
                    {"patches", patch_names(mesh.mesh.patches)}};
   if (mesh.origin) {
-    fields.emplace_back("coverage", mesh.origin->layer.coverage);
-    fields.emplace_back("attainable", mesh.origin->layer.attainable);
-    fields.emplace_back("mean_height", mesh.origin->layer.mean_height);
-    fields.emplace_back("compressed", mesh.origin->layer.n_compressed);
-    fields.emplace_back("collapsed", static_cast<std::int64_t>(mesh.origin->layer.collapsed.size()));
+    fields.emplace_back("coverage", mesh.origin->report.layer.coverage);
+    fields.emplace_back("attainable", mesh.origin->report.layer.attainable);
+    fields.emplace_back("mean_height", mesh.origin->report.layer.mean_height);
+    fields.emplace_back("compressed", mesh.origin->report.layer.n_compressed);
+    fields.emplace_back("collapsed", static_cast<std::int64_t>(mesh.origin->report.layer.collapsed.size()));
   }
   return select_field(call, std::move(fields), mesh_methods());
 }

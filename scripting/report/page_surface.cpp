@@ -3,7 +3,6 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
-#include <nlohmann/json.hpp>
 #include <numbers>
 #include <numeric>
 
@@ -12,7 +11,6 @@
 #include "scripting/report/thin_surface.h"
 
 namespace sterna::scripting {
-using Json = nlohmann::ordered_json;
 
 namespace {
 
@@ -65,24 +63,23 @@ PageTriangles page_triangles(const TriMesh& mesh) {
   return page;
 }
 
-std::string page_field_json(std::string_view name, std::string_view title, std::string_view unit, bool is_log, bool is_low_bad, const GateLimits& limits,
-                            const std::vector<float>& values, PageArrays& arrays) {
+Json page_field_json(std::string_view name, std::string_view title, std::string_view unit, bool is_log, bool is_low_bad, const GateLimits& limits,
+                     const std::vector<float>& values, PageArrays& arrays) {
   float low = std::numeric_limits<float>::infinity(), high = -low;
   for (const float v : values)
     if (std::isfinite(v)) {
       low = std::min(low, v);
       high = std::max(high, v);
     }
-  const Json json = {{"name", name},
-                     {"title", title},
-                     {"unit", unit},
-                     {"values", location_json(arrays.add(std::span(values)))},
-                     {"min", page_number(low)},
-                     {"max", page_number(high)},
-                     {"is_log", is_log},
-                     {"low_is_bad", is_low_bad},
-                     {"limits", {{"hard", page_number(limits.hard)}, {"target", page_number(limits.target)}, {"usual", page_number(limits.usual)}}}};
-  return json.dump(-1, ' ', false, Json::error_handler_t::replace);
+  return {{"name", name},
+          {"title", title},
+          {"unit", unit},
+          {"values", location_json(arrays.add(std::span(values)))},
+          {"min", page_number(low)},
+          {"max", page_number(high)},
+          {"is_log", is_log},
+          {"low_is_bad", is_low_bad},
+          {"limits", {{"hard", page_number(limits.hard)}, {"target", page_number(limits.target)}, {"usual", page_number(limits.usual)}}}};
 }
 
 PageMaker::PageMaker(std::span<const Point> points, const PageTriangles& triangles, const Column<PatchId, Patch>& patches,
@@ -106,12 +103,9 @@ PageMaker::PageMaker(std::span<const Point> points, const PageTriangles& triangl
   length_ = box.longest_side();
 }
 
-std::string PageMaker::frame_json() const {
-  const Json json = {{"length", length_}, {"origin", page_point(origin_)}};
-  return json.dump();
-}
+Json PageMaker::frame_json() const { return {{"length", length_}, {"origin", page_point(origin_)}}; }
 
-std::string PageMaker::patches_json() const {
+Json PageMaker::patches_json() const {
   std::vector<double> areas(patches_.size(), 0.0);
   std::vector<std::int64_t> counts(patches_.size(), 0);
   for (std::size_t t = 0; t < triangles_.triangles.size(); ++t) {
@@ -126,10 +120,10 @@ std::string PageMaker::patches_json() const {
                     {"area", areas[p.index()]},
                     {"triangles", counts[p.index()]},
                     {"is_of_body", triangles_.is_of_body.empty() || triangles_.is_of_body[p.index()] != 0}});
-  return list.dump(-1, ' ', false, Json::error_handler_t::replace);
+  return list;
 }
 
-std::string PageMaker::surface_json(std::size_t most, PageArrays& arrays) const {
+Json PageMaker::surface_json(std::size_t most, PageArrays& arrays) const {
   const ThinSurface thin = thin_surface(points_, triangles_.triangles, most);
   const bool is_thinned = thin.triangles.size() < triangles_.triangles.size();
   std::vector<std::uint32_t> number(points_.size(), k_none);
@@ -160,13 +154,13 @@ std::string PageMaker::surface_json(std::size_t most, PageArrays& arrays) const 
     std::vector<float> values;
     for (const std::uint32_t t : thin.source) values.push_back(shortened(field.values[triangles_.face[t]]));
     const SurfaceFieldInfo& info = field.info;
-    json["fields"].push_back(Json::parse(page_field_json(info.name, info.title, info.unit, info.is_log, info.is_low_bad, info.limits, values, arrays)));
+    json["fields"].push_back(page_field_json(info.name, info.title, info.unit, info.is_log, info.is_low_bad, info.limits, values, arrays));
   }
-  return json.dump(-1, ' ', false, Json::error_handler_t::replace);
+  return json;
 }
 
 /// Returns the polygons nearest to the focus.
-std::string page_cut_json(const CutLocation& location, const MeshCut& cut, std::size_t most, PageArrays& arrays) {
+Json page_cut_json(const CutLocation& location, const MeshCut& cut, std::size_t most, PageArrays& arrays) {
   std::vector<std::uint32_t> chosen(cut.size());
   std::iota(chosen.begin(), chosen.end(), 0u);
   if (cut.size() > most) {
@@ -208,11 +202,11 @@ std::string page_cut_json(const CutLocation& location, const MeshCut& cut, std::
   constexpr double k_degrees = 180.0 / std::numbers::pi;
   GateLimits dihedral = info_of(Measure::min_dihedral).limits;
   for (double* limit : {&dihedral.hard, &dihedral.target, &dihedral.usual}) *limit *= k_degrees;
-  json["fields"] = {Json::parse(page_field_json("shape", "shape of the cell (1 = ideal)", "", false, true, k_no_limits, shape, arrays)),
-                    Json::parse(page_field_json("min_dihedral", "smallest dihedral angle of the tetrahedron", "deg", false, true, dihedral, quality, arrays)),
-                    Json::parse(page_field_json("layer", "number of the layer, from the wall", "", false, false, k_no_limits, layer, arrays)),
-                    Json::parse(page_field_json("volume", "volume", "m^3", true, false, k_no_limits, volume, arrays))};
-  return json.dump(-1, ' ', false, Json::error_handler_t::replace);
+  json["fields"] = {page_field_json("shape", "shape of the cell (1 = ideal)", "", false, true, k_no_limits, shape, arrays),
+                    page_field_json("min_dihedral", "smallest dihedral angle of the tetrahedron", "deg", false, true, dihedral, quality, arrays),
+                    page_field_json("layer", "number of the layer, from the wall", "", false, false, k_no_limits, layer, arrays),
+                    page_field_json("volume", "volume", "m^3", true, false, k_no_limits, volume, arrays)};
+  return json;
 }
 
 }  // namespace sterna::scripting

@@ -15,6 +15,7 @@
 #include "geom/mesh/surface_fields.h"
 #include "geom/mesh/tri_mesh.h"
 #include "scripting/report/page_arrays.h"
+#include "scripting/values/option_json.h"
 
 namespace sterna::scripting {
 
@@ -30,8 +31,8 @@ PageTriangles page_triangles(const HybridMesh& mesh);
 PageTriangles page_triangles(const TriMesh& mesh);
 
 /// Returns a JSON object of the values of a field and their description.
-std::string page_field_json(std::string_view name, std::string_view title, std::string_view unit, bool is_log, bool is_low_bad, const GateLimits& limits,
-                            const std::vector<float>& values, PageArrays& arrays);
+Json page_field_json(std::string_view name, std::string_view title, std::string_view unit, bool is_log, bool is_low_bad, const GateLimits& limits,
+                     const std::vector<float>& values, PageArrays& arrays);
 
 /// Creates the common parts of all pages. The arguments must outlive this object; all returned strings are JSON.
 class PageMaker {
@@ -40,10 +41,10 @@ class PageMaker {
   PageMaker(std::span<const Point> points, const PageTriangles& triangles, const Column<PatchId, Patch>& patches, const std::vector<SurfaceField>& fields);
   const Point& origin() const { return origin_; }
   double length() const { return length_; }
-  std::string frame_json() const;    ///< object with length and origin
-  std::string patches_json() const;  ///< list with name, kind, area, number of triangles of each
+  Json frame_json() const;    ///< object with length and origin
+  Json patches_json() const;  ///< list with name, kind, area, number of triangles of each
   /// Returns an object with the arrays, positions relative to the origin, decimated to at most `most` triangles.
-  std::string surface_json(std::size_t most, PageArrays& arrays) const;
+  Json surface_json(std::size_t most, PageArrays& arrays) const;
 
  private:
   std::span<const Point> points_;
@@ -55,6 +56,6 @@ class PageMaker {
 };
 
 /// Returns an object with the polygons nearest to the focus of the cut, at most `most`, relative to the focus.
-std::string page_cut_json(const CutLocation& location, const MeshCut& cut, std::size_t most, PageArrays& arrays);
+Json page_cut_json(const CutLocation& location, const MeshCut& cut, std::size_t most, PageArrays& arrays);
 
 }  // namespace sterna::scripting

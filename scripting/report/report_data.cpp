@@ -3,7 +3,6 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
-#include <nlohmann/json.hpp>
 #include <numbers>
 #include <numeric>
 #include <optional>
@@ -21,7 +20,6 @@
 #include "scripting/values/summary.h"
 
 namespace sterna::scripting {
-using Json = nlohmann::ordered_json;
 
 namespace {
 
@@ -30,12 +28,6 @@ std::string text_of(const Json& json) { return json.dump(-1, ' ', false, Json::e
 /// Factor of the budget for the next attempt if the page is too large.
 constexpr double k_less = 0.6;
 Json json_of(const Point& p) { return Json::array({p.x, p.y, p.z}); }
-
-Json inputs_json(const std::vector<InputFile>& inputs) {
-  Json list = Json::array();
-  for (const InputFile& input : inputs) list.push_back({{"file", input.name}, {"xxh3_128", input.hash}});
-  return list;
-}
 
 /// Returns the names of options that differ from their defaults, by stage.
 Json options_set_json(const MeshOrigin& origin) {
@@ -74,10 +66,10 @@ Json facts_json(const MeshValue& value) {
   if (mesh.layers.n_columns() > 0) facts.push_back({"layers", std::string(mesh.layers.is_uniform() ? "" : "up to ") + std::to_string(mesh.layers.n_layers)});
   if (mesh.request.is_known()) facts.push_back({"first height", in_metres(mesh.request.first_height)});
   if (value.origin) {
-    facts.push_back({"mean height of the layer", in_metres(value.origin->layer.mean_height, 4)});
-    facts.push_back({"full height", number_text(100.0 * value.origin->layer.coverage, 4) + " % of the area; the geometry permits " +
-                                        number_text(100.0 * value.origin->layer.attainable, 4) + " %"});
-    facts.push_back({"tetrahedra by", value.origin->tetra_engine});
+    facts.push_back({"mean height of the layer", in_metres(value.origin->report.layer.mean_height, 4)});
+    facts.push_back({"full height", number_text(100.0 * value.origin->report.layer.coverage, 4) + " % of the area; the geometry permits " +
+                                        number_text(100.0 * value.origin->report.layer.attainable, 4) + " %"});
+    facts.push_back({"tetrahedra by", value.origin->report.tetra_engine});
   }
   return facts;
 }
@@ -164,21 +156,20 @@ std::string report_html(const MeshValue& mesh, const ReportOptions& options, con
 
   const std::string title = title_of(options, name);
   Json head = {{"schema", "sterna-report-1"}, {"program", "sterna " STERNA_VERSION}, {"title", title}, {"kind", "volume"}, {"facts", facts_json(mesh)}};
-  head.update(Json::parse(maker.frame_json()));
-  head.update(Json::parse(page_check_json(report)));
+  head.update(maker.frame_json());
+  head.update(page_check_json(report));
   head["symmetry_normal"] = json_of(symmetry_normal(mesh.mesh));
-  head["patches"] = Json::parse(maker.patches_json());
-  head["manifest"] = Json::parse(manifest_json(mesh, std::string(name), context.seed()));
+  head["patches"] = maker.patches_json();
+  head["manifest"] = manifest_of(mesh, std::string(name), context.seed());
   if (mesh.origin) head["options_set"] = options_set_json(*mesh.origin);
   head["run"] = options.times && mesh.origin ? run_json(context) : Json(nullptr);
   return small_page(options, context, [&](std::size_t n_triangles, std::size_t n_polygons) {
     PageArrays arrays;
     Json json = head;
-    json["surface"] = Json::parse(maker.surface_json(n_triangles, arrays));
+    json["surface"] = maker.surface_json(n_triangles, arrays);
     json["cuts"] = Json::array();
     for (std::size_t i = 0; i < locations.size(); ++i)
-      if (cuts[i].size() > 0)
-        json["cuts"].push_back(Json::parse(page_cut_json(locations[i], cuts[i], std::max<std::size_t>(1, n_polygons / locations.size()), arrays)));
+      if (cuts[i].size() > 0) json["cuts"].push_back(page_cut_json(locations[i], cuts[i], std::max<std::size_t>(1, n_polygons / locations.size()), arrays));
     return page_text(text_of(json), arrays);
   });
 }
@@ -195,17 +186,17 @@ std::string report_html(const SurfaceValue& surface, const ReportOptions& option
   add_fact("triangles", count_text(static_cast<std::int64_t>(mesh.n_triangles())));
   add_fact("vertices", count_text(static_cast<std::int64_t>(mesh.n_vertices())));
   add_fact("closed", surface.report.is_closed ? "yes" : "no");
-  head.update(Json::parse(maker.frame_json()));
-  head.update(Json::parse(page_no_check_json()));
-  head["patches"] = Json::parse(maker.patches_json());
+  head.update(maker.frame_json());
+  head.update(page_no_check_json());
+  head["patches"] = maker.patches_json();
   head["manifest"] = {{"inputs", inputs_json(surface.inputs)}};
-  if (!surface.changes.empty()) head["manifest"]["changes"] = surface.changes;
+  if (const std::vector<std::string> changes = changes_of(surface.history); !changes.empty()) head["manifest"]["changes"] = changes;
   head["run"] = options.times ? run_json(context) : Json(nullptr);
   head["cuts"] = Json::array();
   return small_page(options, context, [&](std::size_t n_triangles, std::size_t) {
     PageArrays arrays;
     Json json = head;
-    json["surface"] = Json::parse(maker.surface_json(n_triangles, arrays));
+    json["surface"] = maker.surface_json(n_triangles, arrays);
     return page_text(text_of(json), arrays);
   });
 }

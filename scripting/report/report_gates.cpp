@@ -1,11 +1,7 @@
 #include "scripting/report/report_gates.h"
 
-#include <nlohmann/json.hpp>
-
 namespace sterna::scripting {
 namespace {
-
-using Json = nlohmann::ordered_json;
 
 /// Returns the first limit that a value of a gate violates, in the order hard, usual, target.
 Json missed_limit(const Json& measure, double value) {
@@ -53,7 +49,7 @@ void add_forced(const Json& measure, Json& locations) {
 
 }  // namespace
 
-std::string page_check_json(const CheckReport& report) {
+Json page_check_json(const CheckReport& report) {
   Json page;
   const Json check = Json::parse(to_json(report));
   page["verdict"] = check["verdict"];
@@ -105,15 +101,15 @@ std::string page_check_json(const CheckReport& report) {
     patch["lost"] = std::move(lost);
     page["coverage"].push_back(std::move(patch));
   }
-  return page.dump();
+  return page;
 }
 
-std::string page_no_check_json() {
+Json page_no_check_json() {
   Json page;
   page["verdict"] = "not checked";
   page["quality_verdict"] = "not checked";
   for (const char* key : {"places", "gates", "histograms", "coverage"}) page[key] = Json::array();
-  return page.dump();
+  return page;
 }
 
 }  // namespace sterna::scripting

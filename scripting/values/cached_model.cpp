@@ -49,55 +49,17 @@ class MemorySource final : public ByteSource {
   std::size_t at_ = 0;
 };
 
-using ShapeOf = std::function<std::shared_ptr<const CadShape>(std::size_t)>;
-
 /// \throws NotKept
 void write_model_value(ByteSink& sink, const ModelValue& value) {
-  const auto& [model, description, without_description, is_as_described, inputs, report, sizes, layers, parts, through, provenance] =
-      value;  // lists all members, so that a new member does not compile until it is handled
-  ModelWriter writer(sink);
-  writer.model(model);
-  write_value(sink, description);
-  write_value(sink, without_description);
-  write_value(sink, is_as_described);
-  write_value(sink, inputs);
-  write_value(sink, report);
-  write_value(sink, sizes);
-  write_value(sink, layers);
-  write_value(sink, through);
-  write_value(sink, static_cast<std::uint64_t>(parts.size()));
-  for (const ModelPart& part : parts) {
-    const auto& [own, placement, key] = part;
-    writer.shared(own);
-    write_value(sink, placement);
-    write_value(sink, key.has_value());
-    if (key) write_value(sink, key->bytes);
-  }
-  static_cast<void>(provenance);  // the reader of the entry knows it
+  ModelSink models(sink);
+  write_value(models, value);
 }
 
-ModelValue read_model_value(ByteSource& source, const ShapeOf& shape_of) {
+ModelValue read_model_value(ByteSource& source, const ModelSource::ShapeOf& shape_of) {
   ModelValue value;
-  ModelReader reader(source, shape_of);
-  value.model = reader.model();
-  read_value(source, value.description);
-  read_value(source, value.without_description);
-  read_value(source, value.is_as_described);
-  read_value(source, value.inputs);
-  read_value(source, value.report);
-  read_value(source, value.sizes);
-  read_value(source, value.layers);
-  read_value(source, value.through);
-  for (std::size_t n = detail::read_count(source, 1); n > 0; --n) {
-    ModelPart part;
-    part.own = reader.shared();
-    if (!part.own) source.refuse();
-    read_value(source, part.placement);
-    bool has_key = false;
-    read_value(source, has_key);
-    if (has_key) read_value(source, part.key.emplace().bytes);
-    value.parts.push_back(std::move(part));
-  }
+  ModelSource models(source, shape_of);
+  read_value(models, value);
+  if (std::ranges::any_of(value.parts, [](const ModelPart& part) { return part.own == nullptr; })) source.refuse();
   return value;
 }
 

@@ -39,39 +39,20 @@ std::optional<ContentKey> surface_key_of(const PartTask& task, const RunContext&
   return maker.key();
 }
 
-/// Writes the surface without inputs, which are those of the models, and without the model.
+/// Writes a surface of surface_mesh. The model is not written, only the positions on it.
 void write_parts(ByteSink& sink, const SurfaceValue& surface) {
-  const auto& [mesh, report, options, inputs, union_options, repair_options, wrap_options, remesh_options, recipe, mesh_report, smooth_angle, layers,
-               model_wall, parts, model_wall_key, changes, changed] = surface;  // lists all members, so that a new member does not compile until it is handled
-  write_value(sink, mesh);
-  write_value(sink, report);
-  write_value(sink, recipe);
-  write_value(sink, mesh_report);
-  write_value(sink, smooth_angle);
-  write_value(sink, layers);
-  write_value(sink, parts);
-  write_value(sink, changes);
-  write_value(sink, changed);
-  write_value(sink, model_wall->locations());
-  static_cast<void>(options), static_cast<void>(union_options), static_cast<void>(repair_options), static_cast<void>(wrap_options),
-      static_cast<void>(remesh_options);                         // a surface from surface_mesh has none
-  static_cast<void>(inputs), static_cast<void>(model_wall_key);  // the reader of the entry knows them
+  write_value(sink, surface);
+  write_value(sink, surface.true_surface.wall->locations());
 }
 
+/// Reads the surface. Its inputs are those of the models, because files of the same content may have other names.
 SurfaceValue read_parts(ByteSource& source, const std::vector<ModelHandle>& models, const std::function<Model()>& all) {
   SurfaceValue surface;
   surfmesh::WallLocations locations;
-  read_value(source, surface.mesh);
-  read_value(source, surface.report);
-  read_value(source, surface.recipe);
-  read_value(source, surface.mesh_report);
-  read_value(source, surface.smooth_angle);
-  read_value(source, surface.layers);
-  read_value(source, surface.parts);
-  read_value(source, surface.changes);
-  read_value(source, surface.changed);
+  read_value(source, surface);
   read_value(source, locations);
-  surface.model_wall = std::make_shared<const surfmesh::ModelWall>(all, std::move(locations), surface.mesh.triangles);
+  surface.true_surface.wall = std::make_shared<const surfmesh::ModelWall>(all, std::move(locations), surface.mesh.triangles);
+  surface.inputs.clear();
   for (const ModelHandle& model : models) surface.inputs.insert(surface.inputs.end(), model->inputs.begin(), model->inputs.end());
   return surface;
 }
@@ -129,7 +110,7 @@ SurfaceValue cached_surface(const std::vector<ModelHandle>& models, const Surfac
                               : cached<SurfaceValue>(
                                     reuse, k_stage, what, key, context, [&] { return make_here({}); }, write, std::function<SurfaceValue(ByteSource&)>(read));
   if (found) reference->take(std::move(*found), reuse, context);
-  surface.model_wall_key = key;
+  surface.true_surface.key = key;
   return surface;
 }
 

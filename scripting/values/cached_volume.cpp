@@ -42,8 +42,8 @@ ContentKey part_envelope_key(const volmesh::PartEnvelopeTask& task, const RunCon
 /// Returns makers that know the true surface of the wall. Their envelopes come from the cache if present, or start from a reference if there is one.
 volmesh::Makers makers_of(const SurfaceValue& wall, const volmesh::MeshCase& options, const Reuse& reuse) {
   volmesh::Makers makers;
-  if (wall.model_wall)
-    makers.true_surface = [model_wall = wall.model_wall](const Point& p, TriangleId triangle, const std::array<double, 3>& weights) {
+  if (wall.true_surface.wall)
+    makers.true_surface = [model_wall = wall.true_surface.wall](const Point& p, TriangleId triangle, const std::array<double, 3>& weights) {
       return model_wall->nearest(p, triangle, weights);
     };
   const volmesh::PartEnvelopeMaker ordinary = [reuse](const volmesh::PartEnvelopeTask& task, const RunContext& context) {
@@ -57,7 +57,7 @@ volmesh::Makers makers_of(const SurfaceValue& wall, const volmesh::MeshCase& opt
 }
 
 /// Returns a key for the true surface of a wall; nothing if the inputs of that surface are unknown.
-std::optional<ContentKey> true_surface_key(const SurfaceValue& wall) { return wall.model_wall ? wall.model_wall_key : ContentKey{}; }
+std::optional<ContentKey> true_surface_key(const SurfaceValue& wall) { return wall.true_surface.wall ? wall.true_surface.key : ContentKey{}; }
 
 }  // namespace
 
@@ -82,16 +82,9 @@ volmesh::FilledStage cached_tetrahedra(const SurfaceValue& wall, const volmesh::
     add_engines(maker, options.tetrahedra);
     key = maker.key();
   }
-  bool is_made = false;
-  auto filled = cached<volmesh::FilledStage>(
+  return cached<volmesh::FilledStage>(
       reuse, "tetrahedra", triangles_text(wall.mesh), key, context,
-      [&] {
-        is_made = true;
-        return volmesh::make_tetrahedra(wall.mesh, envelope, options, makers_of(wall, options, {}), context);
-      },
-      is_same_everywhere);
-  if (!is_made) filled.tets.engine_seconds = filled.tets.engine_peak_bytes = 0.0;  // these values were measured in another run
-  return filled;
+      [&] { return volmesh::make_tetrahedra(wall.mesh, envelope, options, makers_of(wall, options, {}), context); }, is_same_everywhere);
 }
 
 volmesh::VolumeMeshResult cached_finish(const SurfaceValue& wall, const volmesh::FilledStage& filled, const volmesh::MeshCase& options, const Reuse& reuse,
@@ -128,16 +121,7 @@ volmesh::VolumeMeshResult cached_volume_mesh(const SurfaceValue& wall, const vol
     add_engines(maker, options.tetrahedra);
     key = maker.key();
   }
-  bool is_made = false;
-  auto result = cached_with_reference<volmesh::VolumeMeshResult>(
-      reuse, "volume_mesh", triangles_text(wall.mesh), key, context,
-      [&] {
-        is_made = true;
-        return make();
-      },
-      is_same_mesh_everywhere);
-  if (!is_made) result.tetra_engine_seconds = result.tetra_engine_peak_bytes = 0.0;  // these values were measured in another run
-  return result;
+  return cached_with_reference<volmesh::VolumeMeshResult>(reuse, "volume_mesh", triangles_text(wall.mesh), key, context, make, is_same_mesh_everywhere);
 }
 
 }  // namespace sterna::scripting

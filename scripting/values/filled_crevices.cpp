@@ -32,7 +32,7 @@ SurfaceValue filled_crevices(const SurfaceValue& wall, const volmesh::CreviceOpt
   const std::string text =
       fmt::format("crevices filled: {} up to {:.3g} m wide, {:.3g} m^3 in total; new triangles are at most {:.3g} m from the given wall; {} -> {} triangles",
                   report.crevices.size(), options.width, report.volume, report.distance, count_text(report.n_triangles_before), count_text(report.n_triangles));
-  made.changes.push_back(text);
+  made.history.push_back({.changes = {text}});
   made.report.messages.push_back(text);
   context.info(text);
   for (const std::string& line : volmesh::to_lines(report, k_crevices_in_log)) {

@@ -1,4 +1,4 @@
-// Comparisons of surfaces with their inputs. They are noted in SurfaceValue::changed for manifests, and reported as warnings.
+// Comparisons of surfaces with their inputs. They are noted in SurfaceValue::history for manifests, and reported as warnings.
 #pragma once
 
 #include <string>
@@ -12,19 +12,14 @@
 
 namespace sterna::scripting {
 
-/// Notes the comparison in surface.changed and logs a warning for each loss. If something differs, the figures are logged as well.
+/// Stores the figures of the comparison in the last step of the surface and logs a warning for each loss. If something differs, the figures are logged as well.
+/// \pre surface.history has the step that is compared as its last
 void note_change(SurfaceValue& surface, const GeometryChange& change, const RunContext& context, GeometryChangeUse use = GeometryChangeUse::keeps_shape);
 
-/// Compares a surface stitched from soups with these soups if facets were dropped. Notes the missing parts and warns about them.
+/// Compares a surface stitched from soups with these soups if facets were dropped. Adds a step for missing parts and warns about them.
 void note_reading(SurfaceValue& surface, const std::vector<SurfaceSoup>& soups, const RunContext& context);
 
-/// Compares half of a surface with the part of the whole surface on that side of the plane.
+/// Compares half of a surface with the part of the whole surface on that side of the plane, as a step of its own.
 void note_half(SurfaceValue& half, const TriMesh& whole, const HalfOptions& options, const RunContext& context);
-
-/// Returns the JSON array of manifests.
-std::string changed_json(const std::vector<std::string>& changed);
-/// Returns the entries of the array; those that are no objects are left out.
-/// \pre `text` is JSON
-std::vector<std::string> changed_of_json(const std::string& text);
 
 }  // namespace sterna::scripting

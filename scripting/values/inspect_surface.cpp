@@ -230,7 +230,7 @@ Inspection inspect_joined(const SurfaceValue& surface, InspectRequest request, b
   requested.stitching.fluid = surface.options.fluid;
   report.preparation = foresee_preparation(read_items(items, requested.stitching, context).soups, report, requested, sliver_limit_of(request), {}, must_close,
                                            context.part("foresee", k_inspected, 1.0));
-  if (!surface.model_wall) foresee_remesh(surface.mesh, request, report, context.part("remesh", 1.0, 1.0));
+  if (!surface.true_surface.wall) foresee_remesh(surface.mesh, request, report, context.part("remesh", 1.0, 1.0));
   return report;
 }
 
@@ -290,7 +290,7 @@ Inspection inspect_models(std::span<const InputPath> files, const ReadCadOptions
   report.expected_triangles = expected;
   if (many) replace_finding(report, std::move(*many));
   if (refusal) replace_finding(report, finding_of(*refusal, request));
-  complete_for_model(report.preparation, static_cast<std::int64_t>(surface.mesh.n_triangles()), surface.changes, names_of(files));
+  complete_for_model(report.preparation, static_cast<std::int64_t>(surface.mesh.n_triangles()), changes_of(surface.history), names_of(files));
   return report;
 }
 
@@ -351,7 +351,7 @@ std::string json_of(const Inspection& report, const std::string& name) {
                     {"notes", report.count(Severity::note)}};
   if (report.expected_triangles) json["expected_triangles"] = number(*report.expected_triangles);
   if (report.remeshed_triangles) json["remeshed_triangles"] = number(*report.remeshed_triangles);
-  json["preparation"] = PlainJson::parse(json_of(report.preparation));
+  json["preparation"] = json_of(report.preparation);
   json["findings"] = PlainJson::array();
   for (const Finding& finding : report.findings) {
     PlainJson locations = PlainJson::array();

@@ -1,11 +1,7 @@
 #include "scripting/values/layer_json.h"
 
-#include <nlohmann/json.hpp>
-
 namespace sterna::scripting {
 namespace {
-
-using Json = nlohmann::ordered_json;
 
 Json shares_json(const std::vector<std::pair<std::string, double>>& shares) {
   Json json = Json::object();
@@ -58,7 +54,7 @@ Json visibility_json(const volmesh::VisibilityReport& visibility) {
 
 }  // namespace
 
-std::string layer_json(const volmesh::LayerReport& layer) {
+Json layer_json(const volmesh::LayerReport& layer) {
   Json json = {{"body_length", layer.body_length},
                {"coverage", layer.coverage},
                {"attainable", layer.attainable},
@@ -83,36 +79,33 @@ std::string layer_json(const volmesh::LayerReport& layer) {
   json["most_compressed"] = locations_json(layer.compressed);
   json["collapsed"] = locations_json(layer.collapsed);
   json["warnings"] = layer.warnings;
-  return json.dump();
+  return json;
 }
 
-std::string slivers_json(const volmesh::SliverReport& slivers) {
-  const Json json = {{"given_triangles", slivers.n_given},
-                     {"triangles", slivers.n_triangles},
-                     {"needles", slivers.n_slivers},
-                     {"flipped_edges", slivers.n_flips},
-                     {"left", slivers.n_left},
-                     {"over_budget", slivers.is_over_budget},
-                     {"first_left", {slivers.first_left.x, slivers.first_left.y, slivers.first_left.z}}};
-  return json.dump();
+Json slivers_json(const volmesh::SliverReport& slivers) {
+  Json json = Json::object();
+  sliver_entries(slivers, [&](const char* name, const auto& member) {
+    if constexpr (std::is_same_v<decltype(member), const Point&>) json[name] = {member.x, member.y, member.z};
+    else json[name] = member;
+  });
+  return json;
 }
 
-std::string certificate_json(const volmesh::EnvelopeCertificate& certificate) {
+Json certificate_json(const volmesh::EnvelopeCertificate& certificate) {
   const auto worst = [](const volmesh::WorstElement& element) {
     return Json{{"quality", element.quality}, {"at", {element.location.x, element.location.y, element.location.z}}, {"what", element.what}};
   };
-  const Json json = {{"proved", certificate.is_proved()},
-                     {"boundary_triangles", certificate.n_triangles},
-                     {"pairs_tested", certificate.n_pairs},
-                     {"crossings", certificate.n_crossings},
-                     {"swallowed_surfaces", certificate.n_swallowings},
-                     {"macro_elements", certificate.n_macro_elements},
-                     {"invalid_macro_elements", certificate.n_invalid_macro_elements},
-                     {"worst_macro_element", worst(certificate.worst_macro_element)},
-                     {"layer_cells", certificate.n_layer_cells},
-                     {"invalid_layer_cells", certificate.n_invalid_layer_cells},
-                     {"worst_layer_cell", worst(certificate.worst_layer_cell)}};
-  return json.dump();
+  return {{"proved", certificate.is_proved()},
+          {"boundary_triangles", certificate.n_triangles},
+          {"pairs_tested", certificate.n_pairs},
+          {"crossings", certificate.n_crossings},
+          {"swallowed_surfaces", certificate.n_swallowings},
+          {"macro_elements", certificate.n_macro_elements},
+          {"invalid_macro_elements", certificate.n_invalid_macro_elements},
+          {"worst_macro_element", worst(certificate.worst_macro_element)},
+          {"layer_cells", certificate.n_layer_cells},
+          {"invalid_layer_cells", certificate.n_invalid_layer_cells},
+          {"worst_layer_cell", worst(certificate.worst_layer_cell)}};
 }
 
 }  // namespace sterna::scripting

@@ -1,24 +1,19 @@
 #include "scripting/values/manifest.h"
 
 #include <cmath>
-#include <nlohmann/json.hpp>
 #include <tuple>
 
 #include "geom/mesh/volume_regions.h"
 #include "io/file/input_hash.h"
 #include "io/output/atomic_file.h"
 #include "scripting/values/disc_verbs.h"
-#include "scripting/values/geometry_changes.h"
 #include "scripting/values/layer_json.h"
-#include "scripting/values/model_surface.h"
 #include "scripting/values/patch_rules.h"
 #include "scripting/values/periodic_pairs.h"
 #include "scripting/values/wake_verbs.h"
 
 namespace sterna::scripting {
 namespace {
-
-using Json = nlohmann::ordered_json;
 
 Json cells_json(const HybridMesh& mesh) {
   const CellCounts cells = count_cells(mesh);
@@ -92,27 +87,35 @@ Json improvement_json(const volmesh::ImproveReport& report) {
           {"remaining", remaining}};
 }
 
-}  // namespace
-
-std::string unmeasured_quality_json(const std::string& rounding) {
-  return Json({{"verdict", "not checked"},
-               {"reason", "not measured on the file: " + rounding},
-               {"failed", Json::array()},
-               {"warned", Json::array()},
-               {"forced", Json::object()},
-               {"measures", Json::object()}})
-      .dump();
+void add_report(Json& json, const volmesh::VolumeMeshReport& report) {
+  json["layer"] = layer_json(report.layer);
+  json["certificate"] = certificate_json(report.certificate);
+  json["improvement"] = improvement_json(report.improvement);
+  json["tetra_engine"] = report.tetra_engine;
+  if (!report.tetra_failures.empty()) json["tetra_failures"] = report.tetra_failures;
+  if (!report.tetra_choice.empty()) json["tetra_choice"] = report.tetra_choice;
+  if (report.n_split_triangles > 0) json["boundary_triangles_added_by_splits"] = report.n_split_triangles;
+  if (report.slivers.n_slivers > 0) json["needles"] = slivers_json(report.slivers);
+  if (!report.is_reproducible) json["reproducible"] = "not reproducible: a time or memory limit decided which engine made the tetrahedra";
 }
 
-std::string regions_json(const HybridMesh& mesh) {
+}  // namespace
+
+Json unmeasured_quality_json(const std::string& rounding) {
+  return {{"verdict", "not checked"}, {"reason", "not measured on the file: " + rounding},
+          {"failed", Json::array()},  {"warned", Json::array()},
+          {"forced", Json::object()}, {"measures", Json::object()}};
+}
+
+Json regions_json(const HybridMesh& mesh) {
   Json regions = Json::array();
   for (const VolumeRegion& region : volume_regions(mesh)) regions.push_back({{"volume", region.volume}, {"patches", region.patches}});
-  return regions.dump();
+  return regions;
 }
 
 std::string check_json(const CheckReport& report, const HybridMesh& mesh) {
   Json json = Json::parse(to_json(report));
-  if (report.is_complete) json["fluid_regions"] = Json::parse(regions_json(mesh));
+  if (report.is_complete) json["fluid_regions"] = regions_json(mesh);
   return json.dump(2, ' ', false, Json::error_handler_t::replace);
 }
 
@@ -121,69 +124,51 @@ std::string check_text(const CheckReport& report, const HybridMesh& mesh) {
   return to_text(report) + (regions.empty() ? "" : "regions of fluid: " + regions + "\n");
 }
 
-std::string manifest_json(const MeshValue& mesh, const std::filesystem::path& output, std::uint64_t seed, const std::string& hash,
-                          const std::string& rounding) {
-  Json json;
-  json["schema"] = "sterna-manifest-1";
-  json["program"] = "sterna " STERNA_VERSION;
-  json["output"] = output.filename().string();
+void add_request(Json& json, const MeshOrigin& origin) {
+  surfmesh::StitchOptions surface = origin.surface_options;
+  volmesh::MeshCase volume = origin.options;
+  SurfaceHistory history = origin.history;
+  OptionTable options = all_options(surface, volume);
+  for (Option& option : history_options(history)) options.push_back(std::move(option));
+  json["options"] = options_json(options);
+  if (const SurfaceRecipe* const recipe = last_of<SurfaceRecipe>(history)) add_recipe(json, *recipe);
+  add_changes(json, history);
+  if (origin.smooth_angle) json["wall"] = {{"max_smooth_angle", *origin.smooth_angle}};
+  if (!volume.patches.empty()) json["patch_rules"] = layer_rules_json(volume.patches);
+  if (volume.first_heights)
+    json["first_heights"] = {{"by", "a function of location"}, {"least", volume.first_heights->least()}, {"greatest", volume.first_heights->greatest()}};
+  if (!volume.sources.empty()) json["sources"] = values_json(volume.sources);
+  if (!volume.discs.empty()) json["actuator_discs"] = values_json(volume.discs);
+  if (!volume.wakes.empty()) json["wake_sheets"] = values_json(volume.wakes);
+  if (!volume.periodic.empty()) json["periodic"] = periodic_json(volume.periodic);
+}
+
+Json inputs_json(const std::vector<InputFile>& inputs) {
+  Json list = Json::array();
+  for (const InputFile& input : inputs) list.push_back({{"file", input.name}, {"xxh3_128", input.hash}});
+  return list;
+}
+
+Json manifest_of(const MeshValue& mesh, const std::filesystem::path& output, std::uint64_t seed, const std::string& hash, const std::string& rounding) {
+  Json json = {{"schema", "sterna-manifest-1"}, {"program", "sterna " STERNA_VERSION}, {"output", output.filename().string()}};
   if (!hash.empty()) json["output_xxh3_128"] = hash;
   json["seed"] = seed;
-  json["inputs"] = Json::array();
-  for (const InputFile& input : mesh.inputs) json["inputs"].push_back({{"file", input.name}, {"xxh3_128", input.hash}});
-  if (mesh.origin) {
-    surfmesh::StitchOptions surface = mesh.origin->surface_options;
-    volmesh::MeshCase volume = mesh.origin->options;
-    OptionTable options = all_options(surface, volume);
-    UnionOptions unite = mesh.origin->union_options.value_or(UnionOptions{});
-    if (mesh.origin->union_options)
-      for (Option& option : sterna::options_of(unite)) options.push_back(std::move(option));
-    surfmesh::RepairOptions repair = mesh.origin->repair_options.value_or(surfmesh::RepairOptions{});
-    if (mesh.origin->repair_options)
-      for (Option& option : sterna::options_of(repair)) options.push_back(std::move(option));
-    surfmesh::WrapOptions wrap = mesh.origin->wrap_options.value_or(surfmesh::WrapOptions{});
-    if (mesh.origin->wrap_options)
-      for (Option& option : sterna::options_of(wrap)) options.push_back(std::move(option));
-    surfmesh::RemeshOptions remesh = mesh.origin->remesh_options.value_or(surfmesh::RemeshOptions{});
-    if (mesh.origin->remesh_options)
-      for (Option& option : sterna::options_of(remesh)) options.push_back(std::move(option));
-    SurfaceRecipe recipe = mesh.origin->recipe.value_or(SurfaceRecipe{});
-    if (mesh.origin->recipe)
-      for (Option& option : sterna::options_of(recipe.options)) options.push_back(std::move(option));
-    json["options"] = Json::parse(options_to_json(options));
-    if (!recipe.patches.empty()) json["surface_patches"] = Json::parse(patch_rules_json(recipe.patches));
-    if (!recipe.sources_text.empty()) json["surface_sources"] = Json::parse(recipe.sources_text);
-    if (!mesh.origin->changes.empty()) json["changes"] = mesh.origin->changes;
-    if (!mesh.origin->changed.empty()) json["changed"] = Json::parse(changed_json(mesh.origin->changed));
-    if (mesh.origin->smooth_angle) json["wall"] = {{"max_smooth_angle", *mesh.origin->smooth_angle}};
-    if (!volume.patches.empty()) json["patch_rules"] = Json::parse(layer_rules_json(volume.patches));
-    if (volume.first_heights)
-      json["first_heights"] = {{"by", "a function of location"}, {"least", volume.first_heights->least()}, {"greatest", volume.first_heights->greatest()}};
-    if (!volume.sources.empty()) json["sources"] = Json::parse(sources_text(volume.sources, false));
-    if (!volume.discs.empty()) json["actuator_discs"] = Json::parse(values_to_json(volume.discs));
-    if (!volume.wakes.empty()) json["wake_sheets"] = Json::parse(values_to_json(volume.wakes));
-    if (!volume.periodic.empty()) json["periodic"] = Json::parse(periodic_json(volume.periodic));
-  }
+  json["inputs"] = inputs_json(mesh.inputs);
+  if (mesh.origin) add_request(json, *mesh.origin);
   json["patches"] = Json::array();
   for (const Patch& patch : mesh.mesh.patches) json["patches"].push_back({{"name", patch.name}, {"kind", to_string(patch.kind)}});
   if (!mesh.mesh.periodic.empty()) json["periodic_sides"] = periodic_sides_json(mesh);
   json["mesh"] = cells_json(mesh.mesh);
-  json["fluid_regions"] = Json::parse(regions_json(mesh.mesh));
-  if (mesh.origin) {
-    json["layer"] = Json::parse(layer_json(mesh.origin->layer));
-    json["certificate"] = Json::parse(certificate_json(mesh.origin->certificate));
-    json["improvement"] = improvement_json(mesh.origin->improvement);
-    json["tetra_engine"] = mesh.origin->tetra_engine;
-    if (!mesh.origin->tetra_failures.empty()) json["tetra_failures"] = mesh.origin->tetra_failures;
-    if (!mesh.origin->tetra_choice.empty()) json["tetra_choice"] = mesh.origin->tetra_choice;
-    if (mesh.origin->n_split_triangles > 0) json["boundary_triangles_added_by_splits"] = mesh.origin->n_split_triangles;
-    if (mesh.origin->slivers.n_slivers > 0) json["needles"] = Json::parse(slivers_json(mesh.origin->slivers));
-    if (!mesh.origin->is_reproducible) json["reproducible"] = "not reproducible: a time or memory limit decided which engine made the tetrahedra";
-  }
+  json["fluid_regions"] = regions_json(mesh.mesh);
+  if (mesh.origin) add_report(json, mesh.origin->report);
   json["verdict"] = !mesh.check ? "not checked" : mesh.check->is_valid() ? "VALID" : "INVALID";
-  if (mesh.check && mesh.check->quality_measured)
-    json["quality"] = rounding.empty() ? quality_json(*mesh.check) : Json::parse(unmeasured_quality_json(rounding));
-  return json.dump(2) + "\n";
+  if (mesh.check && mesh.check->quality_measured) json["quality"] = rounding.empty() ? quality_json(*mesh.check) : unmeasured_quality_json(rounding);
+  return json;
+}
+
+std::string manifest_json(const MeshValue& mesh, const std::filesystem::path& output, std::uint64_t seed, const std::string& hash,
+                          const std::string& rounding) {
+  return manifest_of(mesh, output, seed, hash, rounding).dump(2) + "\n";
 }
 
 std::filesystem::path manifest_path(const std::filesystem::path& output) { return (output.has_filename() ? output : output.parent_path()).string() + ".json"; }

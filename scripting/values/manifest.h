@@ -5,21 +5,30 @@
 #include <string>
 #include <string_view>
 
+#include "scripting/values/option_json.h"
 #include "scripting/values/verbs.h"
 
 namespace sterna::scripting {
 
-/// Returns the JSON text of the manifest, schema "sterna-manifest-1". \param hash io::hash_input of the finished file, by which a later run verifies that the
-/// manifest belongs to this file
-/// \param rounding io::rounding_of_volume_file; if it is not empty, the manifest has this reason instead of the states of the QUALITY gates
+/// Adds the entries of a request: "options", and those of the history of the wall, rules, sources, discs, wake sheets and periodic sides.
+void add_request(Json& json, const MeshOrigin& origin);
+
+/// Returns the list of files with their hashes.
+Json inputs_json(const std::vector<InputFile>& inputs);
+
+/// Returns the manifest, schema "sterna-manifest-1"; the second function returns it as text. \param hash io::hash_input of the finished file, by which a later
+/// run verifies that the manifest belongs to this file \param rounding io::rounding_of_volume_file; if it is not empty, the manifest has this reason instead of
+/// the states of the QUALITY gates
+Json manifest_of(const MeshValue& mesh, const std::filesystem::path& output, std::uint64_t seed, const std::string& hash = {},
+                 const std::string& rounding = {});
 std::string manifest_json(const MeshValue& mesh, const std::filesystem::path& output, std::uint64_t seed, const std::string& hash = {},
                           const std::string& rounding = {});
 
 /// Returns the entry "quality" of the manifest of a file whose coordinates are rounded. \param rounding io::rounding_of_volume_file, not empty
-std::string unmeasured_quality_json(const std::string& rounding);
+Json unmeasured_quality_json(const std::string& rounding);
 
 /// Returns the disconnected regions of fluid as a JSON array of their volumes (m^3) and patches, the largest first.
-std::string regions_json(const HybridMesh& mesh);
+Json regions_json(const HybridMesh& mesh);
 /// Returns the report of a check as JSON or text, with these regions; the text names the regions if there are several.
 std::string check_json(const CheckReport& report, const HybridMesh& mesh);
 std::string check_text(const CheckReport& report, const HybridMesh& mesh);

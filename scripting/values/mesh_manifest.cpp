@@ -7,7 +7,6 @@
 #include <fstream>
 #include <iterator>
 #include <map>
-#include <nlohmann/json.hpp>
 
 #include "geom/base/error.h"
 #include "io/file/format_table.h"
@@ -17,8 +16,6 @@
 
 namespace sterna::scripting {
 namespace {
-
-using Json = nlohmann::ordered_json;
 
 constexpr std::array k_kinds = {PatchKind::wall,    PatchKind::slip,     PatchKind::symmetry, PatchKind::inflow,
                                 PatchKind::outflow, PatchKind::farfield, PatchKind::interface};
@@ -150,10 +147,10 @@ bool is_ours(const Json& json) { return json.value("schema", Json()) == "sterna-
 
 }  // namespace
 
-std::optional<std::string> fitting_manifest(const InputPath& file, const std::string& hash, const RunContext& context) {
-  const std::optional<Json> json = read_json(manifest_path(file.path));
+std::optional<Json> fitting_manifest(const InputPath& file, const std::string& hash, const RunContext& context) {
+  std::optional<Json> json = read_json(manifest_path(file.path));
   if (!json || !is_ours(*json)) return std::nullopt;  // there is none, or it is a file of another program
-  if (json->value("output_xxh3_128", Json()) == hash) return json->dump();
+  if (json->value("output_xxh3_128", Json()) == hash) return json;
   context.warn(
       file.name + ".json is " +
       (json->contains("output_xxh3_128") ? "of another version of " + file.name : "of an older version of sterna and does not identify the mesh file") +
@@ -163,9 +160,9 @@ std::optional<std::string> fitting_manifest(const InputPath& file, const std::st
 
 void complete_from_manifest(MeshValue& value, const InputPath& file, const std::string& hash, const RunContext& context) {
   if (io::format_of(file.path).name == "sterna") return;  // contains all these data itself
-  const std::optional<std::string> text = fitting_manifest(file, hash, context);
-  const Json json = text ? Json::parse(*text) : Json();
-  if (!text || json.value("schema", Json()) != "sterna-manifest-1") {  // there is none, or it is that of a surface
+  const std::optional<Json> manifest = fitting_manifest(file, hash, context);
+  const Json json = manifest.value_or(Json::object());
+  if (!manifest || json.value("schema", Json()) != "sterna-manifest-1") {  // there is none, or it is that of a surface
     value.unknown_kinds = unknown_kinds(value.mesh, nullptr, file);
     return;
   }
@@ -189,11 +186,10 @@ std::string why_kinds_are_unknown(const InputPath& file) {
          (json && is_ours(*json) ? "its manifest " + manifest + " is of another version of the file" : "there is no manifest " + manifest + " with kinds");
 }
 
-void write_manifest_of_copy(const std::string& manifest, const std::filesystem::path& to, const std::string& rounding) {
-  Json json = Json::parse(manifest);
+void write_manifest_of_copy(Json json, const std::filesystem::path& to, const std::string& rounding) {
   json["output"] = (to.has_filename() ? to : to.parent_path()).filename().string();
   json["output_xxh3_128"] = io::hash_input(to);
-  if (!rounding.empty() && json.contains("quality")) json["quality"] = Json::parse(unmeasured_quality_json(rounding));
+  if (!rounding.empty() && json.contains("quality")) json["quality"] = unmeasured_quality_json(rounding);
   io::write_whole(manifest_path(to), json.dump(2) + "\n");
 }
 

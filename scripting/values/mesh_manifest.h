@@ -6,14 +6,15 @@
 
 #include "geom/base/run_context.h"
 #include "scripting/lua/input_path.h"
+#include "scripting/values/option_json.h"
 #include "scripting/values/verbs.h"
 
 namespace sterna::scripting {
 
-/// Returns the text of the manifest "<file>.json" beside a mesh file. Returns nothing if there is none. Returns nothing, with a warning, if the file was not
+/// Returns the manifest "<file>.json" beside a mesh file. Returns nothing if there is none. Returns nothing, with a warning, if the file was not
 /// written by sterna or belongs to another state of the mesh file (`hash` differs).
 /// \throws Error(file_malformed) if the manifest is of sterna but its contents are invalid
-std::optional<std::string> fitting_manifest(const InputPath& file, const std::string& hash, const RunContext& context);
+std::optional<Json> fitting_manifest(const InputPath& file, const std::string& hash, const RunContext& context);
 
 /// Adds what the format of the file does not hold but the manifest beside it does: kinds of patches, periodic sides, first height and growth of the layers.
 /// Notes patches of unknown kind. Kinds in a second file (.mapbc, .bmap, .aboc, .names) win over the manifest, with a warning if they differ. \throws Error of
@@ -29,6 +30,6 @@ std::string why_kinds_are_unknown(const InputPath& file);
 /// Writes the manifest of `from` beside `to`, which holds the same mesh or surface in another format.
 /// \param rounding io::rounding_of_volume_file; if it is not empty, it replaces the states of QUALITY gates in the manifest of a mesh
 /// \throws Error(write_failed)
-void write_manifest_of_copy(const std::string& manifest, const std::filesystem::path& to, const std::string& rounding = {});
+void write_manifest_of_copy(Json manifest, const std::filesystem::path& to, const std::string& rounding = {});
 
 }  // namespace sterna::scripting

@@ -7,6 +7,7 @@
 #include <map>
 #include <memory>
 #include <string>
+#include <tuple>
 #include <vector>
 
 #include "geom/model/model.h"
@@ -19,58 +20,76 @@ struct NotKept {
   std::string kind;
 };
 
-/// Writes models that may share curves, surfaces and each other.
-class ModelWriter {
+/// Passes bytes on, and numbers the objects that models share. Values with models are written to such a sink only. CAD shapes of models are not written, only a
+/// flag that they exist.
+class ModelSink final : public ByteSink {
  public:
-  explicit ModelWriter(ByteSink& sink) : sink_(sink) {}
-  /// Writes the model. The CAD shape of the model is not written, only a flag that it exists.
-  /// \throws NotKept
-  void model(const Model& model);
-  void shared(const std::shared_ptr<const Model>& model);
-
- private:
-  /// Returns true if the object was written before; then only its number is written.
+  explicit ModelSink(ByteSink& to) : to_(to) {}
+  void put(const void* bytes, std::size_t n) override { to_.put(bytes, n); }
+  /// Returns the numbers of the objects of a class that are completely written.
   template <class T>
-  bool is_known(const std::shared_ptr<const T>& object);
-  void curve(const CurvePtr& curve);
-  void parameter_curve(const ParameterCurvePtr& curve);
-  void surface(const SurfacePtr& surface);
-  void content(const Curve& curve);
-  void content(const ParameterCurve& curve);
-  void content(const Surface& surface);
-
-  ByteSink& sink_;
-  std::map<const void*, std::uint64_t> known_;  ///< number among the objects of its class
-  std::uint64_t n_curves_ = 0, n_parameter_curves_ = 0, n_surfaces_ = 0, n_models_ = 0;
-};
-
-/// Reads the data of a ModelWriter, in the same order.
-class ModelReader {
- public:
-  /// \p shape_of_next returns the shape of the n-th model (from 0, in the order of writing) that had one
-  ModelReader(ByteSource& source, std::function<std::shared_ptr<const CadShape>(std::size_t)> shape_of_next)
-      : source_(source), shape_of_next_(std::move(shape_of_next)) {}
-  /// \throws Error(file_malformed)
-  Model model();
-  std::shared_ptr<const Model> shared();
+  std::map<const T*, std::uint64_t>& numbers() {
+    return std::get<std::map<const T*, std::uint64_t>>(numbers_);
+  }
 
  private:
-  template <class T, class Read>
-  std::shared_ptr<const T> object(std::vector<std::shared_ptr<const T>>& known, const Read& read);
-  CurvePtr curve();
-  ParameterCurvePtr parameter_curve();
-  SurfacePtr surface();
-  CurvePtr new_curve();
-  ParameterCurvePtr new_parameter_curve();
-  SurfacePtr new_surface();
+  template <class... T>
+  using Numbers = std::tuple<std::map<const T*, std::uint64_t>...>;
 
-  ByteSource& source_;
-  std::function<std::shared_ptr<const CadShape>(std::size_t)> shape_of_next_;
-  std::size_t n_models_ = 0;
-  std::vector<std::shared_ptr<const Model>> models_;
-  std::vector<CurvePtr> curves_;
-  std::vector<ParameterCurvePtr> parameter_curves_;
-  std::vector<SurfacePtr> surfaces_;
+  ByteSink& to_;
+  Numbers<Curve, ParameterCurve, Surface, Model> numbers_;
 };
 
+/// Source of the data of a ModelSink.
+class ModelSource final : public ByteSource {
+ public:
+  using ShapeOf = std::function<std::shared_ptr<const CadShape>(std::size_t)>;
+
+  /// \p shape_of_next returns the shape of the n-th model (from 0, in the order of writing) that had one
+  ModelSource(ByteSource& from, ShapeOf shape_of_next) : from_(from), shape_of_next_(std::move(shape_of_next)) {}
+  void take(void* bytes, std::size_t n) override { from_.take(bytes, n); }
+  std::uint64_t n_left() const override { return from_.n_left(); }
+  [[noreturn]] void refuse() const override { from_.refuse(); }
+  /// Returns the objects of a class that are completely read.
+  template <class T>
+  std::vector<std::shared_ptr<const T>>& objects() {
+    return std::get<std::vector<std::shared_ptr<const T>>>(objects_);
+  }
+  /// Returns the shape of the next model.
+  std::shared_ptr<const CadShape> next_shape(bool has_shape);
+
+ private:
+  template <class... T>
+  using Objects = std::tuple<std::vector<std::shared_ptr<const T>>...>;
+
+  ByteSource& from_;
+  ShapeOf shape_of_next_;
+  Objects<Curve, ParameterCurve, Surface, Model> objects_;
+  std::size_t n_models_ = 0;
+};
+
+namespace detail {
+
+/// An object that several owners may share. \throws NotKept when writing
+template <class T>
+struct SharedArchive {
+  static void write(ByteSink& sink, const std::shared_ptr<const T>& object);
+  static void read(ByteSource& source, std::shared_ptr<const T>& object);
+};
+template <>
+struct Archive<CurvePtr> : SharedArchive<Curve> {};
+template <>
+struct Archive<ParameterCurvePtr> : SharedArchive<ParameterCurve> {};
+template <>
+struct Archive<SurfacePtr> : SharedArchive<Surface> {};
+template <>
+struct Archive<std::shared_ptr<const Model>> : SharedArchive<Model> {};
+
+template <>
+struct Archive<std::shared_ptr<const CadShape>> {
+  static void write(ByteSink& sink, const std::shared_ptr<const CadShape>& shape);
+  static void read(ByteSource& source, std::shared_ptr<const CadShape>& shape);
+};
+
+}  // namespace detail
 }  // namespace sterna::scripting

@@ -223,8 +223,9 @@ SurfaceValue mesh_or_unite(const std::vector<ModelHandle>& models, const Surface
       if (are_known) maker.add(*model->provenance.key());
     if (are_known) united->provenance = maker.key();
     SurfaceValue surface = mesh_models({united}, recipe, {}, context.part("united", k_second_unite_end, 1.0), reuse);
-    surface.changes.push_back(fmt::format("{} closed parts intersect and were united: {} closed now", n_solids, united->model.solids.size()));
-    context.info("changed: " + surface.changes.back());
+    std::string change = fmt::format("{} closed parts intersect and were united: {} closed now", n_solids, united->model.solids.size());
+    context.info("changed: " + change);
+    surface.history.push_back({.changes = {std::move(change)}});
     return surface;
   }
 }
@@ -244,14 +245,14 @@ SurfaceValue mesh_from_scratch(const std::vector<ModelHandle>& models, const Sur
   add_rules(models, all, recipe);
   PartsMesh made = mesh_parts(all, recipe, space_sizes(recipe, size), cached_part_mesher(reuse), context,
                               reuse.reference ? starting_mesher(reuse, mesh_part) : PartMesher());
-  SurfaceValue surface{.inputs = all.inputs, .recipe = recipe};
+  recipe.has_function = static_cast<bool>(size);
+  SurfaceValue surface{.inputs = all.inputs, .history = {{.options = recipe}}};
   surface.parts = std::move(made.parts);
-  surface.recipe->sources_text = sources_text(recipe.sources, static_cast<bool>(size));
   for (const volmesh::PatchRule& rule : all.layers)
     if (std::any_of(all.model.faces.begin(), all.model.faces.end(), [&](const ModelFace& face) { return face.name == rule.names; }))
       surface.layers.push_back(rule);
   surface.smooth_angle = made.mesh.report.max_smooth_angle;
-  surface.model_wall = std::make_shared<const surfmesh::ModelWall>(all.model, made.mesh);
+  surface.true_surface.wall = std::make_shared<const surfmesh::ModelWall>(all.model, made.mesh);
   surface.mesh = std::move(made.mesh.mesh);
   const Topology topology(surface.mesh, context);
   surface.report.n_triangles_read = static_cast<std::int64_t>(surface.mesh.n_triangles());
@@ -286,13 +287,6 @@ surfmesh::SpaceSizes space_sizes(const SurfaceRecipe& recipe, const std::functio
   return requested;
 }
 
-std::string sources_text(const std::vector<volmesh::SizeSource>& sources, bool has_function) {
-  if (sources.empty() && !has_function) return {};
-  nlohmann::ordered_json list = nlohmann::ordered_json::parse(values_to_json(sources));
-  if (has_function) list.push_back({{"kind", "function"}});
-  return list.dump();
-}
-
 OptionTable with_edge_tables(OptionTable table) {
   for (Option& option : table)
     for (const std::string_view edge : {"leading_edge", "trailing_edge"})
@@ -306,15 +300,15 @@ OptionTable patch_rule_options(surfmesh::PatchSurfaceOptions& rule) {
   return table;
 }
 
-std::string patch_rules_json(const std::vector<surfmesh::PatchSurfaceOptions>& rules) {
-  nlohmann::ordered_json list = nlohmann::ordered_json::array();
-  for (surfmesh::PatchSurfaceOptions rule : rules) list.push_back(nlohmann::ordered_json::parse(rule_json(rule.names, patch_rule_options(rule))));
-  return list.dump();
+Json patch_rules_json(const std::vector<surfmesh::PatchSurfaceOptions>& rules) {
+  Json list = Json::array();
+  for (surfmesh::PatchSurfaceOptions rule : rules) list.push_back(rule_json(rule.names, patch_rule_options(rule)));
+  return list;
 }
 
-std::vector<surfmesh::PatchSurfaceOptions> patch_rules_of_json(const std::string& text) {
+std::vector<surfmesh::PatchSurfaceOptions> patch_rules_of_json(const Json& list) {
   std::vector<surfmesh::PatchSurfaceOptions> rules;
-  read_rules_json(text, "reading the options of a surface mesh", [&](const std::string& names) {
+  read_rules_json(list, "reading the options of a surface mesh", [&](const std::string& names) {
     rules.push_back({.names = names});
     return patch_rule_options(rules.back());
   });

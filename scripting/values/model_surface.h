@@ -60,11 +60,8 @@ OptionTable with_edge_tables(OptionTable table);
 OptionTable patch_rule_options(surfmesh::PatchSurfaceOptions& rule);
 /// patch_rules_json returns a list of objects with the options that each rule sets, for manifests; the second function reads such a list.
 /// \throws Error(file_malformed, bad_argument)
-std::string patch_rules_json(const std::vector<surfmesh::PatchSurfaceOptions>& rules);
-std::vector<surfmesh::PatchSurfaceOptions> patch_rules_of_json(const std::string& text);
-/// Returns the sources of a size field as a JSON list, for manifests. Samples are given only by their number. Empty if there are neither sources nor a
-/// function.
-std::string sources_text(const std::vector<volmesh::SizeSource>& sources, bool has_function);
+Json patch_rules_json(const std::vector<surfmesh::PatchSurfaceOptions>& rules);
+std::vector<surfmesh::PatchSurfaceOptions> patch_rules_of_json(const Json& list);
 
 /// Returns the options of `sterna surface`, and of `sterna mesh` of a model, except those of the volume. The arguments must outlive the table.
 OptionTable model_surface_options(surfmesh::SurfaceMeshOptions& surface, ReadCadOptions& reading);

@@ -123,13 +123,12 @@ SurfaceValue with_floor_upwards(const SurfaceValue& wall, const std::string& flo
   SurfaceValue turned = wall;
   for (const TriangleId t : wall.mesh.triangles.ids())
     if (is_open[components.component[t]] != 0) std::swap(turned.mesh.triangles[t][1], turned.mesh.triangles[t][2]);
-  turned.model_wall.reset();  // its triangles have another orientation
-  turned.model_wall_key.reset();
+  turned.true_surface = {};  // its triangles have another orientation
   turned.parts.clear();
   const std::string text = "the floor \"" + floor + "\" had normals pointing downwards: its orientation is reversed, because the fluid is above the floor";
   context.info("surface: " + text);
   turned.report.messages.push_back(text);
-  turned.changes.push_back("turned: " + text);
+  turned.history.push_back({.changes = {"turned: " + text}});
   return turned;
 }
 
@@ -138,14 +137,13 @@ SurfaceValue as_body(const SurfaceValue& wall, bool has_farfield, const RunConte
   SurfaceValue turned = wall;
   const std::int64_t n = volmesh::turn_to_bodies(turned.mesh, context);
   if (n == 0) return wall;
-  turned.model_wall.reset();  // its triangles have another orientation
-  turned.model_wall_key.reset();
+  turned.true_surface = {};  // its triangles have another orientation
   turned.parts.clear();
   const std::string text = fmt::format("reversed {} open {} with inward normals: inside a farfield the normals must point out of {}", count_text(n),
                                        n == 1 ? "part" : "parts", n == 1 ? "it" : "them");
   context.warn("surface: " + text + "; if the surface encloses the fluid, give no farfield");
   turned.report.messages.push_back(text);
-  turned.changes.push_back("turned: " + text);
+  turned.history.push_back({.changes = {"turned: " + text}});
   return turned;
 }
 

@@ -1,7 +1,6 @@
 #include "scripting/values/patch_rules.h"
 
 #include <algorithm>
-#include <nlohmann/json.hpp>
 
 #include "geom/base/error.h"
 #include "geom/base/glob.h"
@@ -12,8 +11,6 @@
 
 namespace sterna::scripting {
 namespace {
-
-using Json = nlohmann::ordered_json;
 
 /// Reads one entry of `patches`; notes problems.
 void read_rule(const std::string& names, const ScriptValue& value, std::string_view example, TableReader& reader, const AddRule& add) {
@@ -118,16 +115,15 @@ std::vector<volmesh::PatchRule> layer_rules_of(const std::vector<std::pair<std::
   return rules;
 }
 
-std::string rule_json(const std::string& names, const OptionTable& options) {
+Json rule_json(const std::string& names, const OptionTable& options) {
   OptionTable changed = options;
   std::erase_if(changed, is_default);
   Json entry = {{"names", names}};
   entry.update(Json::parse(value_to_json(changed)));
-  return entry.dump();
+  return entry;
 }
 
-void read_rules_json(const std::string& text, std::string_view attempted, const AddRule& add) {
-  const Json list = Json::parse(text, nullptr, false);
+void read_rules_json(const Json& list, std::string_view attempted, const AddRule& add) {
   const auto refuse = [&] {
     throw Error(
         {.code = ErrorCode::file_malformed, .attempted = std::string(attempted), .problem = "expected a list of rules with names of patches and options"});
@@ -143,15 +139,15 @@ void read_rules_json(const std::string& text, std::string_view attempted, const 
   }
 }
 
-std::string layer_rules_json(const std::vector<volmesh::PatchRule>& rules) {
+Json layer_rules_json(const std::vector<volmesh::PatchRule>& rules) {
   Json list = Json::array();
-  for (volmesh::PatchRule rule : rules) list.push_back(Json::parse(rule_json(rule.names, patch_rule_options(rule))));
-  return list.dump();
+  for (volmesh::PatchRule rule : rules) list.push_back(rule_json(rule.names, patch_rule_options(rule)));
+  return list;
 }
 
-std::vector<volmesh::PatchRule> layer_rules_of_json(const std::string& text) {
+std::vector<volmesh::PatchRule> layer_rules_of_json(const Json& list) {
   std::vector<volmesh::PatchRule> rules;
-  read_rules_json(text, "reading the rules for patches of a volume mesh", [&](const std::string& names) {
+  read_rules_json(list, "reading the rules for patches of a volume mesh", [&](const std::string& names) {
     rules.push_back({.names = names});
     return patch_rule_options(rules.back());
   });

@@ -9,6 +9,7 @@
 
 #include "geom/base/schema.h"
 #include "scripting/lua/table_reader.h"
+#include "scripting/values/option_json.h"
 #include "scripting/values/verbs.h"
 #include "volmesh/case/patch_rule.h"
 
@@ -43,13 +44,13 @@ std::vector<volmesh::PatchRule> layer_rules_of(const std::vector<std::pair<std::
                                                std::vector<surfmesh::PatchSurfaceOptions>* sizes = nullptr);
 
 /// Returns an object with `names` and the options that are not at their default.
-std::string rule_json(const std::string& names, const OptionTable& options);
+Json rule_json(const std::string& names, const OptionTable& options);
 /// Creates the rules of a list of such objects.
 /// \throws Error(file_malformed, bad_argument, unknown_option)
-void read_rules_json(const std::string& list, std::string_view attempted, const AddRule& add);
+void read_rules_json(const Json& list, std::string_view attempted, const AddRule& add);
 
 /// layer_rules_json returns the rules of volume_mesh, for manifests; the second function reads them.
-std::string layer_rules_json(const std::vector<volmesh::PatchRule>& rules);
-std::vector<volmesh::PatchRule> layer_rules_of_json(const std::string& text);
+Json layer_rules_json(const std::vector<volmesh::PatchRule>& rules);
+std::vector<volmesh::PatchRule> layer_rules_of_json(const Json& list);
 
 }  // namespace sterna::scripting

@@ -1,6 +1,5 @@
 #include "scripting/values/periodic_pairs.h"
 
-#include <nlohmann/json.hpp>
 #include <optional>
 
 #include "geom/base/error.h"
@@ -11,7 +10,6 @@ namespace sterna::scripting {
 namespace {
 
 using volmesh::PeriodicNames;
-using PlainJson = nlohmann::json;
 
 constexpr std::string_view k_expected = "expected the names of two patches, such as { \"left\", \"right\" }";
 
@@ -65,20 +63,19 @@ PeriodicNames periodic_of_text(const std::string& text) {
   return {text.substr(0, comma), text.substr(comma + 1)};
 }
 
-std::string periodic_json(const std::vector<PeriodicNames>& pairs) {
-  PlainJson list = PlainJson::array();
+Json periodic_json(const std::vector<PeriodicNames>& pairs) {
+  Json list = Json::array();
   for (const PeriodicNames& pair : pairs) list.push_back({pair.first, pair.second});
-  return list.dump(-1, ' ', false, PlainJson::error_handler_t::replace);
+  return list;
 }
 
-std::vector<PeriodicNames> periodic_of_json(const std::string& text) {
+std::vector<PeriodicNames> periodic_of_json(const Json& list) {
   const auto fail = [] {
     throw Error({.code = ErrorCode::bad_argument, .attempted = "reading periodic sides", .problem = "expected a list of pairs of names"});
   };
-  const PlainJson list = PlainJson::parse(text, nullptr, false);
   if (!list.is_array()) fail();
   std::vector<PeriodicNames> pairs;
-  for (const PlainJson& pair : list) {
+  for (const Json& pair : list) {
     if (!pair.is_array() || pair.size() != 2 || !pair[0].is_string() || !pair[1].is_string()) fail();
     pairs.push_back({pair[0].get<std::string>(), pair[1].get<std::string>()});
   }

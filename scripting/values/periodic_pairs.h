@@ -5,6 +5,7 @@
 #include <vector>
 
 #include "scripting/lua/table_reader.h"
+#include "scripting/values/option_json.h"
 #include "volmesh/domain/periodic_sides.h"
 
 namespace sterna::scripting {
@@ -22,8 +23,8 @@ std::vector<volmesh::PeriodicNames> periodic_of_surface(const std::string& text)
 volmesh::PeriodicNames periodic_of_text(const std::string& text);
 
 /// periodic_json returns pairs as a JSON list of lists, for manifests and the files of stages; the second function reads it.
-/// \throws Error(bad_argument) if the text is no such list
-std::string periodic_json(const std::vector<volmesh::PeriodicNames>& pairs);
-std::vector<volmesh::PeriodicNames> periodic_of_json(const std::string& text);
+/// \throws Error(bad_argument) if the JSON is no such list
+Json periodic_json(const std::vector<volmesh::PeriodicNames>& pairs);
+std::vector<volmesh::PeriodicNames> periodic_of_json(const Json& list);
 
 }  // namespace sterna::scripting

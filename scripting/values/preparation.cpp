@@ -211,7 +211,7 @@ void complete_for_model(Preparation& p, std::int64_t n_triangles, std::span<cons
   write_commands(p, inputs, 1.0);
 }
 
-std::string json_of(const Preparation& p) {
+nlohmann::json json_of(const Preparation& p) {
   nlohmann::json json = {{"needed", to_string(p.needed)},
                          {"reason", p.reason},
                          {"command", p.command},
@@ -232,7 +232,7 @@ std::string json_of(const Preparation& p) {
                    {"hole_facets", f.n_fillings},  {"stay_open", f.n_open},
                    {"widest_open", f.widest_open}, {"crossings", f.n_crossings},
                    {"crowded_edges", f.n_crowded}, {"half", f.half ? f.half->axis : ""}};
-  return json.dump();
+  return json;
 }
 
 std::string text_of(const Preparation& p) {

@@ -8,6 +8,7 @@
 #include <string_view>
 
 #include "geom/base/run_context.h"
+#include "scripting/values/option_json.h"
 #include "scripting/values/repair_surfaces.h"
 #include "scripting/values/verbs.h"
 #include "volmesh/inspect/inspect.h"
@@ -56,6 +57,6 @@ void complete_for_model(Preparation& preparation, std::int64_t n_triangles, std:
 /// Returns several human-readable lines, each indented by two blanks.
 std::string text_of(const Preparation& preparation);
 /// Returns an object for the JSON of the inspection.
-std::string json_of(const Preparation& preparation);
+nlohmann::json json_of(const Preparation& preparation);
 
 }  // namespace sterna::scripting

@@ -70,11 +70,12 @@ SurfaceValue remeshed_if(const SurfaceValue& wall, const RemeshRecipe& recipe, c
   require_likeness(result.report, demand);  // a cached result may have been made without this demand
   SurfaceValue made = wall;
   replace_mesh(made, std::move(result.mesh));
-  made.remesh_options = recipe.options;
   const std::string text = "remeshed: " + to_text(result.report);
   made.report.messages.push_back(text);
-  made.changes.push_back(fmt::format("remeshed: {} -> {} triangles, at most {:.3g} m from the given ones", count_text(result.report.n_triangles_before),
-                                     count_text(result.report.n_triangles), std::max(result.report.to_input.max, result.report.from_input.max)));
+  made.history.push_back(
+      {.options = recipe.options,
+       .changes = {fmt::format("remeshed: {} -> {} triangles, at most {:.3g} m from the given ones", count_text(result.report.n_triangles_before),
+                               count_text(result.report.n_triangles), std::max(result.report.to_input.max, result.report.from_input.max))}});
   context.info(text);
   return made;
 }
@@ -93,7 +94,8 @@ SurfaceValue remeshed(const SurfaceValue& wall, const RemeshRecipe& recipe, cons
 }
 
 bool is_remesh_advised(const SurfaceValue& wall) {
-  if (wall.repair_options || wall.wrap_options) return surfmesh::is_remesh_advised(surfmesh::count_slivers(wall.mesh), wall.mesh.n_triangles());
+  if (last_of<surfmesh::RepairOptions>(wall.history) || last_of<surfmesh::WrapOptions>(wall.history))
+    return surfmesh::is_remesh_advised(surfmesh::count_slivers(wall.mesh), wall.mesh.n_triangles());
   if (wall.mesh_report) return false;
   const auto n = static_cast<double>(surfmesh::count_slivers(wall.mesh, volmesh::SliverOptions{}.split_needles).n);
   return n > 0.0 && n >= k_many_slivers * static_cast<double>(wall.mesh.n_triangles());

@@ -56,7 +56,7 @@ ContentKey repair_key(const SurfaceItems& items, surfmesh::RepairOptions options
 
 /// Reports the faces of a model whose triangles were replaced, with their distance from the face.
 void report_replaced_faces(const SurfaceValue& made, SurfaceValue& repaired, const RunContext& context) {
-  const surfmesh::ReplacedFaces replaced = surfmesh::find_replaced_faces(*made.model_wall, made.mesh, repaired.mesh, context);
+  const surfmesh::ReplacedFaces replaced = surfmesh::find_replaced_faces(*made.true_surface.wall, made.mesh, repaired.mesh, context);
   if (replaced.faces.empty()) return;
   const std::vector<std::string> lines = to_lines(replaced.faces, replaced.faces.size());
   std::string text =
@@ -64,7 +64,7 @@ void report_replaced_faces(const SurfaceValue& made, SurfaceValue& repaired, con
                   made.mesh_report->faces.size(), count_text(replaced.n_exact), count_text(static_cast<std::int64_t>(repaired.mesh.n_triangles())));
   for (std::size_t i = 0; i < std::min(k_faces_reported, lines.size()); ++i) text += (i == 0 ? "" : "; ") + lines[i];
   if (lines.size() > k_faces_reported) text += fmt::format("; and {} more (see log or report)", lines.size() - k_faces_reported);
-  repaired.changes.push_back(std::move(text));
+  repaired.history.back().changes.push_back(std::move(text));
   for (const std::string& line : lines) {
     repaired.report.messages.push_back(line);
     context.info("repair: " + line);
@@ -91,30 +91,15 @@ Repaired repaired_of(std::span<const UnionItem> items, const surfmesh::StitchOpt
     return RepairedWall{std::move(result.mesh), std::move(result.report.stitch), std::move(result.report.messages), !result.report.changes.empty()};
   };
   const std::optional<ContentKey> key = reuse.cache && !look ? std::optional(repair_key(read, options)) : std::nullopt;
-  RepairedWall made = cached<RepairedWall>(
-      reuse, k_repair_stage, {}, key, context, make,
-      [](ByteSink& sink, const RepairedWall& wall) {
-        write_value(sink, wall.mesh);
-        write_value(sink, wall.report);
-        write_value(sink, wall.messages);
-        write_value(sink, wall.is_changed);
-      },
-      std::function<RepairedWall(ByteSource&)>([](ByteSource& source) {
-        RepairedWall wall;
-        read_value(source, wall.mesh);
-        read_value(source, wall.report);
-        read_value(source, wall.messages);
-        read_value(source, wall.is_changed);
-        return wall;
-      }));
+  RepairedWall made = cached<RepairedWall>(reuse, k_repair_stage, {}, key, context, make);
   Repaired result{with_mesh(read, std::move(made.mesh), std::move(made.report)), std::nullopt};
   SurfaceValue& wall = result.wall;
-  wall.repair_options = options;
+  wall.history.push_back({.options = options});
   if (made.is_changed || wall.report.n_degenerate_removed + wall.report.n_duplicate_removed > 0) {
     GeometryChange change = compare_geometry(surfmesh::mesh_as_read(read.soups, read.wall.options), wall.mesh, "repair", context);
     if (made.is_changed || !change.is_small()) result.change = std::move(change);
   }
-  if (made.is_changed) wall.changes.push_back(change_text("repaired", made.messages));
+  if (made.is_changed) wall.history.back().changes.push_back(change_text("repaired", made.messages));
   context.info(describe(wall) + (made.is_changed ? " (repaired)" : " (nothing to repair)"));
   return result;
 }
@@ -252,7 +237,7 @@ SurfaceValue auto_triangles(std::span<const InputPath> files, const AutoSurface&
   std::optional<Repaired> folded;  // a repaired surface whose remaining facets are folded onto each other
   try {
     Repaired repaired = repaired_of(items, stitching, options.repair, reuse, context.part("repair", k_triangles_end, k_repair_end), {});
-    if (open && repaired.wall.changes.size() == open->changes.size()) return *open;
+    if (open && changes_of(repaired.wall.history) == changes_of(open->history)) return *open;
     if (of_model) report_replaced_faces(*of_model, repaired.wall, context);
     const std::int64_t n_folded = surfmesh::count_folded_edges(repaired.wall.mesh);
     if (static_cast<double>(n_folded) < surfmesh::k_many_folded * 1.5 * static_cast<double>(repaired.wall.mesh.n_triangles()))

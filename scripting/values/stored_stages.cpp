@@ -3,7 +3,6 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <nlohmann/json.hpp>
 #include <numbers>
 
 #include "geom/base/error.h"
@@ -11,18 +10,14 @@
 #include "io/file/input_hash.h"
 #include "io/volume/sterna_file.h"
 #include "scripting/values/cached_volume.h"
-#include "scripting/values/disc_verbs.h"
 #include "scripting/values/envelope_domain.h"
-#include "scripting/values/geometry_changes.h"
 #include "scripting/values/layer_json.h"
 #include "scripting/values/layer_options.h"
 #include "scripting/values/manifest.h"
-#include "scripting/values/model_surface.h"
 #include "scripting/values/open_domains.h"
 #include "scripting/values/patch_rules.h"
 #include "scripting/values/periodic_pairs.h"
 #include "scripting/values/summary.h"
-#include "scripting/values/wake_verbs.h"
 #include "surfmesh/model/periodic_borders.h"
 #include "volmesh/case/body_wake.h"
 #include "volmesh/case/layer_choice.h"
@@ -32,8 +27,6 @@
 
 namespace sterna::scripting {
 namespace {
-
-using Json = nlohmann::ordered_json;
 
 // ---- Values of volmesh in the form of a file -------------------------------------------------------------------------------------------------
 
@@ -104,15 +97,21 @@ Json stage_json(const volmesh::EnvelopeStage& envelope, std::int64_t n_wall_tria
   return json;
 }
 
+/// Calls entry(name, member) for the entries of "stage" that are always there. The same list writes and reads.
+template <class AnyFilled, class F>
+void stage_entries(AnyFilled& filled, const F& entry) {
+  entry("engine", filled.tets.engine);
+  entry("is_two_pass", filled.tets.is_two_pass);
+  entry("is_reproducible", filled.tets.is_reproducible);
+  entry("failures", filled.tetra_failures);
+  entry("curving_shares", filled.curving_shares);
+  entry("boundary_triangles_added_by_splits", filled.n_split_triangles);
+}
+
 Json stage_json(const volmesh::FilledStage& filled, std::int64_t n_wall_triangles) {
   Json json = stage_json(filled.envelope, n_wall_triangles);
-  json["engine"] = filled.tets.engine;
-  json["is_two_pass"] = filled.tets.is_two_pass;
-  json["is_reproducible"] = filled.tets.is_reproducible;
-  json["failures"] = filled.tetra_failures;
-  json["curving_shares"] = filled.curving_shares;
-  json["boundary_triangles_added_by_splits"] = filled.n_split_triangles;
-  json["needles"] = Json::parse(slivers_json(filled.slivers));
+  stage_entries(filled, [&](const char* name, const auto& member) { json[name] = member; });
+  json["needles"] = slivers_json(filled.slivers);
   if (filled.is_opened) json["is_opened"] = true;
   return json;
 }
@@ -142,27 +141,20 @@ std::vector<volmesh::PatchRule> rules_of(const SurfaceValue& wall, const volmesh
   return rules;
 }
 
-/// Returns the data of an unfinished run, which has no manifest yet.
+MeshOrigin origin_of(const SurfaceValue& wall, const volmesh::MeshCase& options) {
+  MeshOrigin origin{.surface_options = wall.options, .history = wall.history, .smooth_angle = wall.smooth_angle, .options = options};
+  origin.options.patches = rules_of(wall, options);  // a file with the stages gets these rules only from here
+  return origin;
+}
+
+/// Returns the data of an unfinished run, which has no manifest yet. First heights are in the envelope of the file.
 std::string unfinished_json(const SurfaceValue& wall, const volmesh::MeshCase& options, Json stage) {
-  surfmesh::StitchOptions surface_options = wall.options;
-  volmesh::MeshCase volume_options = options;
-  Json json = {{"schema", "sterna-stage-1"}, {"program", "sterna " STERNA_VERSION}, {"inputs", Json::array()}};
-  for (const InputFile& input : wall.inputs) json["inputs"].push_back({{"file", input.name}, {"xxh3_128", input.hash}});
-  OptionTable table = all_options(surface_options, volume_options);
-  SurfaceRecipe recipe = wall.recipe.value_or(SurfaceRecipe{});
-  if (wall.recipe)
-    for (Option& option : sterna::options_of(recipe.options)) table.push_back(std::move(option));
-  json["options"] = Json::parse(options_to_json(table));
-  if (!recipe.patches.empty()) json["surface_patches"] = Json::parse(patch_rules_json(recipe.patches));
-  if (!recipe.sources_text.empty()) json["surface_sources"] = Json::parse(recipe.sources_text);
-  if (!wall.changes.empty()) json["changes"] = wall.changes;
-  if (!wall.changed.empty()) json["changed"] = Json::parse(changed_json(wall.changed));
-  if (wall.smooth_angle) json["wall"] = {{"max_smooth_angle", *wall.smooth_angle}};
-  if (const std::vector<volmesh::PatchRule> rules = rules_of(wall, options); !rules.empty()) json["patch_rules"] = Json::parse(layer_rules_json(rules));
-  if (!options.sources.empty()) json["sources"] = Json::parse(values_to_json(options.sources));
-  if (!options.discs.empty()) json["actuator_discs"] = Json::parse(values_to_json(options.discs));
-  if (!options.wakes.empty()) json["wake_sheets"] = Json::parse(values_to_json(options.wakes));
-  if (!options.periodic.empty()) json["periodic"] = Json::parse(periodic_json(options.periodic));
+  MeshOrigin origin = origin_of(wall, options);
+  origin.history.clear();
+  inherit(origin.history, wall.history, true);
+  origin.options.first_heights.reset();
+  Json json = {{"schema", "sterna-stage-1"}, {"program", "sterna " STERNA_VERSION}, {"inputs", inputs_json(wall.inputs)}};
+  add_request(json, origin);
   json["stage"] = std::move(stage);
   return json.dump(2) + "\n";
 }
@@ -199,22 +191,27 @@ class StageJson {
     }
   }
 
-  std::vector<volmesh::PatchRule> patch_rules() const {
-    return json_.contains("patch_rules") ? layer_rules_of_json(json_.at("patch_rules").dump()) : std::vector<volmesh::PatchRule>{};
-  }
+  std::vector<volmesh::PatchRule> patch_rules() const { return layer_rules_of_json(list("patch_rules")); }
 
   volmesh::EnvelopeStep step() const {
     return json_.contains(Json::json_pointer("/stage/step")) ? volmesh::envelope_step_of(get<std::string>("/stage/step")) : volmesh::EnvelopeStep::finished;
   }
 
-  /// Returns the recipe of a wall made by surface_mesh.
-  std::optional<SurfaceRecipe> recipe() const {
-    if (!json_.contains(Json::json_pointer("/options/surface_mesh"))) return std::nullopt;
-    SurfaceRecipe result;
-    read_options(sterna::options_of(result.options));
-    if (json_.contains("surface_patches")) result.patches = patch_rules_of_json(json_.at("surface_patches").dump());
-    if (json_.contains("surface_sources")) result.sources_text = json_.at("surface_sources").dump();
-    return result;
+  /// Returns the history of the wall: its recipe, if surface_mesh made the wall, and the changes and figures of all steps.
+  SurfaceHistory history() const {
+    SurfaceHistory history;
+    if (json_.contains(Json::json_pointer("/options/surface_mesh"))) {
+      SurfaceRecipe recipe;
+      read_options(sterna::options_of(recipe.options));
+      read_recipe(json_, recipe);
+      history.push_back({.options = std::move(recipe)});
+    }
+    try {
+      inherit(history, read_changes(json_));
+    } catch (const Json::exception& error) {
+      refuse(file_, std::string("the manifest has no valid /changes: ") + error.what());
+    }
+    return history;
   }
 
   /// Returns the smooth angle, radians, of a wall made by surface_mesh in this run or an earlier one.
@@ -223,38 +220,28 @@ class StageJson {
     return get<double>("/wall/max_smooth_angle");
   }
 
-  std::vector<std::string> changed() const { return changed_of_json(json_.contains("changed") ? json_.at("changed").dump() : std::string("[]")); }
-
-  /// Returns the changes of the wall relative to the user's files.
-  std::vector<std::string> changes() const { return json_.contains("changes") ? get<std::vector<std::string>>("/changes") : std::vector<std::string>(); }
-
-  std::vector<volmesh::ActuatorDisc> discs() const {
-    const auto found = json_.find("actuator_discs");
-    return found == json_.end() ? std::vector<volmesh::ActuatorDisc>() : values_of_json<volmesh::ActuatorDisc>(found->dump());
+  /// Returns the values of a list that manifests have only if it is not empty.
+  template <class T>
+  std::vector<T> values(const char* name) const {
+    return values_of<T>(list(name));
   }
 
-  std::vector<volmesh::WakeSheet> wakes() const {
-    const auto found = json_.find("wake_sheets");
-    return found == json_.end() ? std::vector<volmesh::WakeSheet>() : values_of_json<volmesh::WakeSheet>(found->dump());
-  }
+  std::vector<volmesh::PeriodicNames> periodic() const { return periodic_of_json(list("periodic")); }
 
-  std::vector<volmesh::PeriodicNames> periodic() const {
-    const auto found = json_.find("periodic");
-    return found == json_.end() ? std::vector<volmesh::PeriodicNames>() : periodic_of_json(found->dump());
-  }
-
-  /// Returns the report on slivers; empty for files of versions that did not detect slivers.
+  /// Returns the report on slivers.
   volmesh::SliverReport slivers() const {
-    if (!json_.contains(Json::json_pointer("/stage/needles"))) return {};
-    const auto count = [&](const char* name) { return get<std::int64_t>(std::string("/stage/needles/") + name); };
-    const auto first = get<std::array<double, 3>>("/stage/needles/first_left");
-    return {.n_given = count("given_triangles"),
-            .n_triangles = count("triangles"),
-            .n_slivers = count("needles"),
-            .n_flips = count("flipped_edges"),
-            .n_left = count("left"),
-            .is_over_budget = get<bool>("/stage/needles/over_budget"),
-            .first_left = {first[0], first[1], first[2]}};
+    volmesh::SliverReport report;
+    sliver_entries(report, [&](const char* name, auto& member) {
+      using Member = std::remove_reference_t<decltype(member)>;
+      const std::string pointer = std::string("/stage/needles/") + name;
+      if constexpr (std::is_same_v<Member, Point>) {
+        const auto p = get<std::array<double, 3>>(pointer);
+        member = {p[0], p[1], p[2]};
+      } else {
+        member = get<Member>(pointer);
+      }
+    });
+    return report;
   }
 
   /// Returns the closed fans, which are present only in files of runs that had to close some.
@@ -269,12 +256,9 @@ class StageJson {
 
   bool is_opened() const { return json_.contains(Json::json_pointer("/stage/is_opened")) && get<bool>("/stage/is_opened"); }
 
-  std::vector<volmesh::SizeSource> sources() const {
-    const auto found = json_.find("sources");
-    return found == json_.end() ? std::vector<volmesh::SizeSource>() : values_of_json<volmesh::SizeSource>(found->dump());
-  }
-
  private:
+  Json list(const char* name) const { return json_.value(name, Json::array()); }
+
   const InputPath& file_;
   Json json_;
 };
@@ -286,12 +270,7 @@ volmesh::FilledStage filled_of(const StageJson& json, volmesh::EnvelopeStage env
   filled.layers = layers_of(content.opened ? std::move(*content.opened) : *content.mesh, *content.tetrahedra, file);
   filled.tets.new_points = std::move(content.tetrahedra->new_points);
   filled.tets.tetrahedra = std::move(content.tetrahedra->tetrahedra);
-  filled.tets.engine = json.get<std::string>("/stage/engine");
-  filled.tets.is_two_pass = json.get<bool>("/stage/is_two_pass");
-  filled.tets.is_reproducible = json.get<bool>("/stage/is_reproducible");
-  filled.tetra_failures = json.get<std::vector<std::string>>("/stage/failures");
-  filled.curving_shares = json.get<std::array<std::int64_t, 5>>("/stage/curving_shares");
-  filled.n_split_triangles = json.get<std::int64_t>("/stage/boundary_triangles_added_by_splits");
+  stage_entries(filled, [&](const char* name, auto& member) { member = json.get<std::remove_reference_t<decltype(member)>>(std::string("/stage/") + name); });
   filled.slivers = json.slivers();
   return filled;
 }
@@ -307,33 +286,9 @@ SurfaceHandle surface_of(TriMesh mesh, std::vector<InputFile> inputs, const RunC
 }
 
 MeshValue mesh_value(const SurfaceValue& wall, std::int64_t n_wall_triangles, const volmesh::MeshCase& options, volmesh::VolumeMeshResult result) {
-  MeshValue value;
-  value.mesh = std::move(result.mesh);
-  value.inputs = wall.inputs;
-  value.check = std::move(result.check);
-  value.origin = MeshOrigin{.surface_options = wall.options,
-                            .union_options = wall.union_options,
-                            .repair_options = wall.repair_options,
-                            .wrap_options = wall.wrap_options,
-                            .remesh_options = wall.remesh_options,
-                            .recipe = wall.recipe,
-                            .smooth_angle = wall.smooth_angle,
-                            .options = options,
-                            .layer = std::move(result.layer),
-                            .certificate = std::move(result.certificate),
-                            .n_wall_triangles = n_wall_triangles,
-                            .improvement = std::move(result.improvement),
-                            .tetra_engine = result.tetra_engine,
-                            .tetra_failures = result.tetra_failures,
-                            .tetra_choice = result.tetra_choice,
-                            .n_split_triangles = result.n_split_triangles,
-                            .slivers = result.slivers,
-                            .changes = wall.changes,
-                            .changed = wall.changed,
-                            .is_reproducible = result.is_reproducible,
-                            .tetra_engine_seconds = result.tetra_engine_seconds,
-                            .tetra_engine_peak_bytes = result.tetra_engine_peak_bytes};
-  value.origin->options.patches = rules_of(wall, options);  // a file with the stages gets these rules only from here
+  MeshValue value{.mesh = std::move(result.mesh), .inputs = wall.inputs, .origin = origin_of(wall, options), .check = std::move(result.check)};
+  value.origin->n_wall_triangles = n_wall_triangles;
+  value.origin->report = static_cast<volmesh::VolumeMeshReport&&>(result);
   return value;
 }
 
@@ -390,7 +345,7 @@ io::StoredTetrahedra with_moved_nodes(const FinishedParts& parts, const HybridMe
 
 void write_finished(const SurfaceValue& wall, const FinishedParts& parts, const MeshValue& mesh, const std::filesystem::path& path, const RunContext& context) {
   const StageTimer timer(context, "write");
-  Json manifest = Json::parse(manifest_json(mesh, path, context.seed()));
+  Json manifest = manifest_of(mesh, path, context.seed());
   manifest["stage"] = parts.json;
   const io::StoredTetrahedra tetrahedra = with_moved_nodes(parts, mesh.mesh);
   io::write_sterna({.surface = parts.split_wall ? &*parts.split_wall : &wall.mesh,
@@ -400,7 +355,7 @@ void write_finished(const SurfaceValue& wall, const FinishedParts& parts, const 
                     .mesh = &mesh.mesh,
                     .opened = parts.opened ? &*parts.opened : nullptr,
                     .manifest = manifest.dump(2) + "\n",
-                    .certificate = certificate_json(mesh.origin->certificate),
+                    .certificate = certificate_json(mesh.origin->report.certificate).dump(),
                     .quality = to_json(*mesh.check)},
                    path, context);
 }
@@ -415,8 +370,11 @@ namespace {
 
 /// Returns the periodic sides that the mesher of the wall meshed identically, if the wall still has its triangles.
 std::vector<volmesh::PeriodicNames> periodic_of_wall(const SurfaceValue& wall) {
-  if (!wall.recipe || wall.remesh_options || wall.repair_options || wall.wrap_options || wall.union_options) return {};
-  std::vector<volmesh::PeriodicNames> pairs = periodic_of_surface(wall.recipe->options.periodic);
+  const SurfaceRecipe* const recipe = last_of<SurfaceRecipe>(wall.history);
+  if (!recipe || last_of<surfmesh::RemeshOptions>(wall.history) || last_of<surfmesh::RepairOptions>(wall.history) ||
+      last_of<surfmesh::WrapOptions>(wall.history) || last_of<UnionOptions>(wall.history))
+    return {};
+  std::vector<volmesh::PeriodicNames> pairs = periodic_of_surface(recipe->options.periodic);
   const auto has = [&](const std::string& name) {
     return surfmesh::is_open_plane(name) || std::ranges::any_of(wall.mesh.patches, [&](const Patch& patch) { return patch.name == name; });
   };
@@ -514,18 +472,16 @@ StageContent read_stages(const InputPath& file, const RunContext& context) {
     auto wall = std::make_shared<SurfaceValue>(*surface_of(std::move(*content.surface), json.inputs(), context));
     volmesh::MeshCase options;
     json.read_options(all_options(wall->options, options));
-    options.sources = json.sources();
-    options.discs = json.discs();
-    options.wakes = json.wakes();
+    options.sources = json.values<volmesh::SizeSource>("sources");
+    options.discs = json.values<volmesh::ActuatorDisc>("actuator_discs");
+    options.wakes = json.values<volmesh::WakeSheet>("wake_sheets");
     options.periodic = json.periodic();
     options.patches = json.patch_rules();
     if (content.farfield) options.farfield_surface = std::make_shared<const TriMesh>(std::move(*content.farfield));
     if (!content.envelope->first_height.empty())
       options.first_heights = std::make_shared<const volmesh::FirstHeights>(wall->mesh, std::move(content.envelope->first_height), context);
-    wall->recipe = json.recipe();
+    wall->history = json.history();
     wall->smooth_angle = json.smooth_angle();
-    wall->changes = json.changes();
-    wall->changed = json.changed();
     result.surface = wall;
     volmesh::EnvelopeStage envelope{.envelope = envelope_of(std::move(*content.envelope), file),
                                     .feature_angle = json.get<double>("/stage/feature_angle"),

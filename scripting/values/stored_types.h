@@ -25,5 +25,43 @@ struct Archive<volmesh::Envelope> {
   }
 };
 
+template <>
+struct Archive<volmesh::VolumeMeshResult> {
+  static_assert(member_count<volmesh::VolumeMeshResult>() == 3, "the base class, mesh and check");
+  static void write(ByteSink& sink, const volmesh::VolumeMeshResult& value) {
+    write_value<volmesh::VolumeMeshReport>(sink, value);
+    write_value(sink, value.mesh);
+    write_value(sink, value.check);
+  }
+  static void read(ByteSource& source, volmesh::VolumeMeshResult& value) {
+    read_value<volmesh::VolumeMeshReport>(source, value);
+    read_value(source, value.mesh);
+    read_value(source, value.check);
+  }
+};
+
+/// First heights have a key by their values, and are not stored.
+template <>
+struct Archive<std::shared_ptr<const volmesh::FirstHeights>> {
+  static void write(ByteSink& sink, const std::shared_ptr<const volmesh::FirstHeights>& heights) {
+    write_value(sink, heights != nullptr);
+    if (heights) write_value(sink, std::vector<double>(heights->values().begin(), heights->values().end()));
+  }
+};
+
+/// The reader knows the key.
+template <>
+struct Archive<Provenance> {
+  static void write(ByteSink&, const Provenance&) {}
+  static void read(ByteSource&, Provenance&) {}
+};
+
+/// The key stands for the model.
+template <>
+struct Archive<TrueSurface> {
+  static void write(ByteSink& sink, const TrueSurface& value) { write_value(sink, value.key); }
+  static void read(ByteSource& source, TrueSurface& value) { read_value(source, value.key); }
+};
+
 }  // namespace detail
 }  // namespace sterna::scripting

@@ -6,7 +6,6 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
-#include <nlohmann/json.hpp>
 #include <numbers>
 
 #include "geom/math/constants.h"
@@ -128,7 +127,7 @@ std::string gate_names(const CheckReport& report, const IsMeant& is_meant) {
 }
 
 /// Returns the time that this program took without the engine.
-double rest_seconds(const MeshValue& mesh, const RunMeasure& measure) { return measure.wall_seconds - mesh.origin->tetra_engine_seconds; }
+double rest_seconds(const MeshValue& mesh, const RunMeasure& measure) { return measure.wall_seconds - mesh.origin->report.tetra_engine_seconds; }
 
 }  // namespace
 
@@ -197,12 +196,12 @@ std::string quality_text(const CheckReport& report) {
 
 std::string summary_text(const MeshValue& mesh, Consumers consumers) {
   const CellCounts cells = count_cells(mesh.mesh);
-  const volmesh::LayerReport& layer = mesh.origin->layer;
+  const volmesh::LayerReport& layer = mesh.origin->report.layer;
   std::optional<CheckReport> shown = mesh.check;
   if (shown) shown->restrict_to(consumers);
   const bool is_measured = shown && shown->quality_measured;
   std::string text = "  verdict     " + verdict_text(mesh) + (is_measured ? "; " + quality_text(*shown) : "") + "\n";
-  for (const std::string& change : mesh.origin->changes) text += "  changed     " + change + "\n";
+  for (const std::string& change : changes_of(mesh.origin->history)) text += "  changed     " + change + "\n";
   text += fmt::format("  mesh        {} nodes: ", count_text(n_nodes(mesh)));
   const bool has_layers = layer.n_vertices > 0;
   if (has_layers)
@@ -212,11 +211,12 @@ std::string summary_text(const MeshValue& mesh, Consumers consumers) {
   text += fmt::format("{} tetrahedra; wall of {} triangles, {:.6g} m long\n", count_text(cells.tetrahedra), count_text(mesh.origin->n_wall_triangles),
                       layer.body_length);
   if (const std::string regions = describe_regions(volume_regions(mesh.mesh)); !regions.empty()) text += "  regions     of fluid: " + regions + "\n";
-  if (const volmesh::SliverReport& slivers = mesh.origin->slivers; slivers.n_slivers > 0)
+  if (const volmesh::SliverReport& slivers = mesh.origin->report.slivers; slivers.n_slivers > 0)
     text += fmt::format("  needles     {} sliver triangles of the wall, {} left; {} edges flipped, {} -> {} triangles\n", count_text(slivers.n_slivers),
                         count_text(slivers.n_left), count_text(slivers.n_flips), count_text(slivers.n_given), count_text(slivers.n_triangles));
-  if (mesh.origin->n_split_triangles > 0)
-    text += fmt::format("  splits      {} more triangles on wall and farfield, required by the tetrahedra\n", count_text(mesh.origin->n_split_triangles));
+  if (mesh.origin->report.n_split_triangles > 0)
+    text +=
+        fmt::format("  splits      {} more triangles on wall and farfield, required by the tetrahedra\n", count_text(mesh.origin->report.n_split_triangles));
   if (has_layers)
     text += fmt::format("  layer       {:.2f} % of the area at full height along the normal, the geometry permits {:.2f} %; mean height {:.4g} m\n",
                         100.0 * layer.coverage, 100.0 * layer.attainable, layer.mean_height);
@@ -256,11 +256,11 @@ std::string check_summary_text(const CheckReport& report, bool reports_troubles)
 }
 
 std::string measure_text(const MeshValue& mesh, const RunMeasure& measure) {
-  const bool is_own = mesh.origin->tetra_engine == "sterna";
+  const bool is_own = mesh.origin->report.tetra_engine == "sterna";
   return fmt::format("  seconds     {:.2f} in total on {} threads: {:.2f} in {}, {:.2f} in other steps; peak memory {:.0f} MB here, {:.0f} MB in the {}",
-                     measure.wall_seconds, measure.threads, mesh.origin->tetra_engine_seconds, is_own ? "the own engine" : mesh.origin->tetra_engine,
-                     rest_seconds(mesh, measure), peak_memory_bytes() / k_bytes_per_mb, mesh.origin->tetra_engine_peak_bytes / k_bytes_per_mb,
-                     is_own ? "engine's arrays" : "engine's process");
+                     measure.wall_seconds, measure.threads, double(mesh.origin->report.tetra_engine_seconds),
+                     is_own ? "the own engine" : mesh.origin->report.tetra_engine, rest_seconds(mesh, measure), peak_memory_bytes() / k_bytes_per_mb,
+                     mesh.origin->report.tetra_engine_peak_bytes / k_bytes_per_mb, is_own ? "engine's arrays" : "engine's process");
 }
 
 std::string stages_text(const RunMeasure& measure) {
@@ -274,8 +274,8 @@ std::string stages_text(const RunMeasure& measure) {
 
 std::string stats_json(const MeshValue& mesh, const RunMeasure& measure) {
   const CellCounts cells = count_cells(mesh.mesh);
-  const volmesh::LayerReport& layer = mesh.origin->layer;
-  nlohmann::ordered_json json;
+  const volmesh::LayerReport& layer = mesh.origin->report.layer;
+  Json json;
   json["schema"] = "sterna-stats-1";
   json["program"] = "sterna " STERNA_VERSION;
   json["triangles"] = mesh.origin->n_wall_triangles;
@@ -292,14 +292,14 @@ std::string stats_json(const MeshValue& mesh, const RunMeasure& measure) {
   json["target_over_eq1"] = layer.target_over_eq1;
   json["mean_height_share"] = layer.mean_height_share;
   json["mean_height"] = layer.mean_height;
-  json["lost_area"] = nlohmann::ordered_json::object();
+  json["lost_area"] = Json::object();
   for (const auto& [reason, share] : layer.lost_area) json["lost_area"][reason] = share;
   json["vertices"] = layer.n_vertices;
   json["compressed"] = layer.n_compressed;
   json["collapsed"] = layer.collapsed.size();
-  json["layer"] = nlohmann::ordered_json::parse(layer_json(layer));
-  json["certificate"] = nlohmann::ordered_json::parse(certificate_json(mesh.origin->certificate));
-  const volmesh::ImproveReport& improvement = mesh.origin->improvement;
+  json["layer"] = layer_json(layer);
+  json["certificate"] = certificate_json(mesh.origin->report.certificate);
+  const volmesh::ImproveReport& improvement = mesh.origin->report.improvement;
   json["bad_tetrahedra_of_engine"] = improvement.n_bad_before;
   json["bad_tetrahedra"] = improvement.n_bad_after;
   json["bad_tetrahedra_off_boundary"] = improvement.n_bad_free_after;
@@ -309,25 +309,25 @@ std::string stats_json(const MeshValue& mesh, const RunMeasure& measure) {
   json["min_dihedral_deg"] = k_degrees * improvement.min_angle_after;
   json["max_dihedral_deg"] = k_degrees * improvement.max_angle_after;
   json["verdict"] = verdict_text(mesh);
-  json["measures"] = nlohmann::ordered_json::object();
+  json["measures"] = Json::object();
   if (mesh.check)
     for (const GateResult& gate : mesh.check->gates) {
       if (gate.state == GateState::not_checked) continue;
       const MeasureInfo& info = info_of(gate.measure);
       const double worst = in_report_unit(info, gate.worst);
       json["measures"][std::string(info.name)] = {
-          {"state", to_string(gate.state)}, {"worst", std::isfinite(worst) ? nlohmann::ordered_json(worst) : nullptr}, {"share_within", gate.share_within}};
+          {"state", to_string(gate.state)}, {"worst", std::isfinite(worst) ? Json(worst) : nullptr}, {"share_within", gate.share_within}};
     }
   json["threads"] = measure.threads;
   json["wall_seconds"] = measure.wall_seconds;
-  json["engine_seconds"] = mesh.origin->tetra_engine_seconds;
+  json["engine_seconds"] = double(mesh.origin->report.tetra_engine_seconds);
   json["rest_seconds"] = rest_seconds(mesh, measure);
-  json["stage_seconds"] = nlohmann::ordered_json::object();
+  json["stage_seconds"] = Json::object();
   for (const StageTime& stage : measure.stages) json["stage_seconds"][stage.stage] = stage.seconds;
-  json["stage_busy_share"] = nlohmann::ordered_json::object();
+  json["stage_busy_share"] = Json::object();
   for (const StageTime& stage : measure.stages) json["stage_busy_share"][stage.stage] = stage.busy_share(measure.threads);
   json["peak_memory_bytes"] = peak_memory_bytes();
-  json["engine_peak_memory_bytes"] = mesh.origin->tetra_engine_peak_bytes;
+  json["engine_peak_memory_bytes"] = double(mesh.origin->report.tetra_engine_peak_bytes);
   return json.dump(2) + "\n";
 }
 

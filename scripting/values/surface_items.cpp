@@ -44,9 +44,7 @@ SurfaceItems read_items(std::span<const UnionItem> items, const surfmesh::Stitch
   const auto add = [&](const SurfaceValue& known) {
     wall.inputs.insert(wall.inputs.end(), known.inputs.begin(), known.inputs.end());
     wall.layers.insert(wall.layers.end(), known.layers.begin(), known.layers.end());
-    wall.changes.insert(wall.changes.end(), known.changes.begin(), known.changes.end());
-    wall.changed.insert(wall.changed.end(), known.changed.begin(), known.changed.end());
-    if (known.recipe && items.size() == 1) wall.recipe = known.recipe;
+    inherit(wall.history, known.history, items.size() == 1);
   };
   for (const UnionItem& item : items) {
     if (const auto* file = std::get_if<InputPath>(&item)) {

@@ -4,7 +4,6 @@
 #include <cmath>
 #include <fstream>
 #include <iterator>
-#include <nlohmann/json.hpp>
 #include <numbers>
 
 #include "geom/base/error.h"
@@ -12,18 +11,14 @@
 #include "geom/math/measures.h"
 #include "io/file/input_hash.h"
 #include "io/output/atomic_file.h"
-#include "scripting/values/geometry_changes.h"
+#include "scripting/values/manifest.h"
 #include "scripting/values/model_surface.h"
 #include "scripting/values/patch_rules.h"
 
 namespace sterna::scripting {
 namespace {
 
-using Json = nlohmann::ordered_json;
-
 constexpr const char* k_schema = "sterna-surface-1";
-
-std::filesystem::path manifest_of(const std::filesystem::path& file) { return file.string() + ".json"; }
 
 Json point_json(const Point& p) { return {p.x, p.y, p.z}; }
 
@@ -101,13 +96,12 @@ std::map<std::string, PatchKind> kinds_of(const Json& json, const InputPath& fil
   return kinds;
 }
 
-std::vector<std::string> changes_of(const Json& json, const InputPath& file) {
-  std::vector<std::string> changes;
-  for (const Json& change : json.value("changes", Json::array())) {
-    if (!change.is_string()) refuse_manifest(file, "an entry of its changes is not a string");
-    changes.push_back(change.get<std::string>());
+SurfaceHistory history_of(const Json& json, const InputPath& file) {
+  try {
+    return read_changes(json);
+  } catch (const Json::exception&) {
+    refuse_manifest(file, "an entry of its changes is not a string");
   }
-  return changes;
 }
 
 }  // namespace
@@ -117,20 +111,21 @@ std::string surface_manifest_json(const SurfaceValue& surface, const std::filesy
                {"program", "sterna " STERNA_VERSION},
                {"output", written.filename().string()},
                {"output_xxh3_128", io::hash_input(written)},
-               {"inputs", Json::array()}};
-  for (const InputFile& input : surface.inputs) json["inputs"].push_back({{"file", input.name}, {"xxh3_128", input.hash}});
-  SurfaceRecipe recipe = surface.recipe.value_or(SurfaceRecipe{});
-  if (surface.recipe || surface.mesh_report) json["options"] = Json::parse(options_to_json(sterna::options_of(recipe.options)));
-  if (!recipe.patches.empty()) json["surface_patches"] = Json::parse(patch_rules_json(recipe.patches));
+               {"inputs", inputs_json(surface.inputs)}};
+  const SurfaceRecipe* const recipe = last_of<SurfaceRecipe>(surface.history);
+  if (recipe || surface.mesh_report) {
+    surfmesh::SurfaceMeshOptions options = recipe ? recipe->options : surfmesh::SurfaceMeshOptions{};
+    json["options"] = options_json(sterna::options_of(options));
+  }
+  if (recipe && !recipe->patches.empty()) json["surface_patches"] = patch_rules_json(recipe->patches);
   json["patches"] = Json::array();
   Column<PatchId, std::int64_t> n_triangles(surface.mesh.patches.size(), 0);
   for (const PatchId patch : surface.mesh.triangle_patch) ++n_triangles[patch];
   for (const PatchId patch : surface.mesh.patches.ids())
     json["patches"].push_back(
         {{"name", surface.mesh.patches[patch].name}, {"kind", to_string(surface.mesh.patches[patch].kind)}, {"triangles", n_triangles[patch]}});
-  if (!surface.changes.empty()) json["changes"] = surface.changes;
-  if (!surface.changed.empty()) json["changed"] = Json::parse(changed_json(surface.changed));
-  if (!surface.layers.empty()) json["layers"] = Json::parse(layer_rules_json(surface.layers));
+  add_changes(json, surface.history);
+  if (!surface.layers.empty()) json["layers"] = layer_rules_json(surface.layers);
   json["mesh"] = {{"vertices", surface.mesh.n_vertices()},
                   {"triangles", surface.mesh.n_triangles()},
                   {"closed", surface.report.is_closed},
@@ -145,16 +140,16 @@ std::string surface_manifest_json(const SurfaceValue& surface, const std::filesy
 }
 
 bool has_surface_manifest(const SurfaceValue& surface) {
-  return surface.mesh_report || surface.smooth_angle || !surface.layers.empty() || !surface.changes.empty() ||
+  return surface.mesh_report || surface.smooth_angle || !surface.layers.empty() || !changes_of(surface.history).empty() ||
          std::ranges::any_of(surface.mesh.patches, [](const Patch& patch) { return patch.kind != PatchKind::wall; });
 }
 
 void write_surface_manifest(const SurfaceValue& surface, const std::filesystem::path& written) {
-  io::write_whole(manifest_of(written), surface_manifest_json(surface, written));
+  io::write_whole(manifest_path(written), surface_manifest_json(surface, written));
 }
 
 std::optional<KnownSurface> read_surface_manifest(const InputPath& file, const std::string& hash, const RunContext& context) {
-  std::ifstream in(manifest_of(file.path), std::ios::binary);
+  std::ifstream in(manifest_path(file.path), std::ios::binary);
   if (!in) return std::nullopt;
   const Json json = Json::parse(std::string(std::istreambuf_iterator<char>(in), {}), nullptr, false);
   if (!json.is_object() || json.value("schema", Json()) != k_schema) return std::nullopt;  // a file of another program
@@ -172,12 +167,7 @@ std::optional<KnownSurface> read_surface_manifest(const InputPath& file, const s
   }
   const Json::json_pointer inside("/mesh/encloses_fluid");
   const bool encloses = json.contains(inside) && json.at(inside).is_boolean() && json.at(inside).get<bool>();
-  return KnownSurface{smooth_angle,
-                      kinds_of(json, file),
-                      encloses,
-                      layer_rules_of_json(json.value("layers", Json::array()).dump()),
-                      changes_of(json, file),
-                      changed_of_json(json.value("changed", Json::array()).dump())};
+  return KnownSurface{smooth_angle, kinds_of(json, file), encloses, layer_rules_of_json(json.value("layers", Json::array())), history_of(json, file)};
 }
 
 void set_kinds(Column<PatchId, Patch>& patches, const std::map<std::string, PatchKind>& kinds) {

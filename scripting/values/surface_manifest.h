@@ -28,8 +28,7 @@ struct KnownSurface {
   std::map<std::string, PatchKind> kinds;  ///< kinds of its patches by name: surface formats do not hold them
   bool encloses_fluid = false;             ///< the outermost part of the surface has inward normals
   std::vector<volmesh::PatchRule> layers;  ///< SurfaceValue::layers
-  std::vector<std::string> changes;        ///< SurfaceValue::changes
-  std::vector<std::string> changed;        ///< SurfaceValue::changed
+  SurfaceHistory history;                  ///< changes and figures of SurfaceValue::history
 };
 /// Reads the manifest. Returns nothing if there is none. Returns nothing, with a warning, if it belongs to another state of the file (`hash` differs).
 /// \throws Error(file_malformed) if the manifest is of sterna but its contents are invalid

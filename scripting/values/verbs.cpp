@@ -77,8 +77,7 @@ WallFiles read_wall_files(std::span<const InputPath> files, const surfmesh::Stit
       if (known->encloses_fluid && options.fluid == "automatic") wall.options.fluid = "inside";
       result.kinds.insert(known->kinds.begin(), known->kinds.end());
       wall.layers.insert(wall.layers.end(), known->layers.begin(), known->layers.end());
-      wall.changes.insert(wall.changes.end(), known->changes.begin(), known->changes.end());
-      wall.changed.insert(wall.changed.end(), known->changed.begin(), known->changed.end());
+      inherit(wall.history, known->history);
     }
     context.progress(static_cast<double>(result.soups.size()) / static_cast<double>(files.size()));
   }
@@ -117,8 +116,8 @@ SurfaceValue unite_surfaces(std::span<const UnionItem> items, double unit, const
   SurfaceValue result;
   result.options.unit = unit;
   result.options.check_intersections = false;  // union accepts crossings; it proves that its result has none
-  result.union_options = options;
   std::vector<UnionPart> parts;
+  std::vector<std::string> changes;  // of the parts; their figures describe other surfaces
   for (const UnionItem& item : items) {
     SurfaceValue read;
     if (const auto* file = std::get_if<InputPath>(&item)) {
@@ -130,8 +129,9 @@ SurfaceValue unite_surfaces(std::span<const UnionItem> items, double unit, const
     parts.push_back({read.inputs.empty() ? "" : std::filesystem::path(read.inputs.front().name).stem().string(), std::move(read.mesh)});
     for (InputFile& input : read.inputs) result.inputs.push_back(std::move(input));
     result.layers.insert(result.layers.end(), read.layers.begin(), read.layers.end());
-    result.changes.insert(result.changes.end(), read.changes.begin(), read.changes.end());
+    for (std::string& change : changes_of(read.history)) changes.push_back(std::move(change));
   }
+  result.history.push_back({.options = options, .changes = std::move(changes)});
   const StageTimer timer(context, "union");
   UnionResult united = unite_meshes(parts, options, context.part("union", k_union_read_end, 1.0));
   result.mesh = std::move(united.mesh);
@@ -191,7 +191,7 @@ void write_mesh(const MeshValue& mesh, const std::filesystem::path& given, const
   if (path.extension() == ".sterna") {  // a .sterna file also holds the known data of the mesh
     io::write_sterna({.mesh = &mesh.mesh,
                       .manifest = manifest_json(mesh, path, context.seed()),
-                      .certificate = mesh.origin ? certificate_json(mesh.origin->certificate) : std::string(),
+                      .certificate = mesh.origin ? certificate_json(mesh.origin->report.certificate).dump() : std::string(),
                       .quality = mesh.check ? to_json(*mesh.check) : std::string()},
                      path, part);
   } else if (const io::Format& format = io::format_to_write(given, io::FormatUse::write_volume, {}); format.name == "OpenFOAM") {
@@ -237,8 +237,7 @@ OptionTable all_options(surfmesh::StitchOptions& surface, volmesh::MeshCase& vol
 void replace_mesh(SurfaceValue& surface, TriMesh mesh) {
   surface.mesh = std::move(mesh);
   surface.mesh_report.reset();
-  surface.model_wall.reset();
-  surface.model_wall_key.reset();
+  surface.true_surface = {};
   surface.parts.clear();
 }
 

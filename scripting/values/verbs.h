@@ -17,13 +17,10 @@
 #include "scripting/cache/provenance.h"
 #include "scripting/lua/handles.h"
 #include "scripting/lua/input_path.h"
+#include "scripting/values/surface_history.h"
 #include "scripting/values/write_options.h"
 #include "surfmesh/model/model_wall.h"
-#include "surfmesh/model/surface_mesh.h"
-#include "surfmesh/remesh/remesh_surface.h"
-#include "surfmesh/repair/repair_surface.h"
 #include "surfmesh/stitch/stitch_surface.h"
-#include "surfmesh/wrap/wrap_surface.h"
 #include "volmesh/case/patch_rule.h"
 #include "volmesh/case/placed_part.h"
 #include "volmesh/volume_mesh.h"
@@ -36,35 +33,25 @@ struct InputFile {
   std::string hash;  ///< io::hash_input
 };
 
-/// The request to surface_mesh.
-struct SurfaceRecipe {
-  surfmesh::SurfaceMeshOptions options;
-  std::vector<surfmesh::PatchSurfaceOptions> patches;  ///< rules of faces; the last rule that matches a face applies
-  std::vector<volmesh::SizeSource> sources;            ///< sources in space
-  std::string sources_text;                            ///< JSON of the sources, and if there was a function, for manifests; empty if there is neither
+/// The exact surface behind a mesh of surface_mesh.
+struct TrueSurface {
+  std::shared_ptr<const surfmesh::ModelWall> wall = {};  ///< gives the positions of new vertices; null: unknown
+  std::optional<ContentKey> key = {};                    ///< key of its data, for caches
 };
 
-/// A surface with its origin.
+/// A surface with its history and with facts that later steps use.
 struct SurfaceValue {
   TriMesh mesh;
   surfmesh::StitchReport report;
   surfmesh::StitchOptions options;
   std::vector<InputFile> inputs;
-  std::optional<UnionOptions> union_options = {};               ///< set for a surface made by union
-  std::optional<surfmesh::RepairOptions> repair_options = {};   ///< set for a surface processed by repair
-  std::optional<surfmesh::WrapOptions> wrap_options = {};       ///< set for a surface made by wrap
-  std::optional<surfmesh::RemeshOptions> remesh_options = {};   ///< set for a surface whose triangles were made by remesh
-  std::optional<SurfaceRecipe> recipe = {};                     ///< set for a surface made by surface_mesh
+  SurfaceHistory history = {};
   std::optional<surfmesh::SurfaceMeshReport> mesh_report = {};  ///< set for a surface made by surface_mesh, unless it was read from a file
   std::optional<double> smooth_angle = {};  ///< rad; largest turn where the surface is smooth, from surface_mesh or from the manifest beside the file
   std::vector<volmesh::PatchRule> layers =
       {};  ///< layer rules for patches, set by the makers of the model, in order. The last rule for a name applies, and the user's own rules come after these
-  std::shared_ptr<const surfmesh::ModelWall> model_wall = {};  ///< set for a surface made by surface_mesh in this run: gives the positions of new vertices
-  std::vector<volmesh::PlacedPart> parts = {};    ///< parts meshed or read elsewhere and moved to their locations; in ascending order of their triangles
-  std::optional<ContentKey> model_wall_key = {};  ///< key of the data of model_wall, for caches
-  std::vector<std::string> changes = {};          ///< differences from the surface of the files, one sentence each; they come first in summaries and manifests
-  std::vector<std::string> changed = {};          ///< figures before and after each step that changed the surface, as JSON objects
-                                                  ///< (geom/mesh/compare_geometry.h)
+  TrueSurface true_surface = {};                ///< set for a surface made by surface_mesh in this run
+  std::vector<volmesh::PlacedPart> parts = {};  ///< parts meshed or read elsewhere and moved to their locations; in ascending order of their triangles
 };
 
 /// Replaces the mesh of a surface, and drops the data that refer to its former triangles: report of the mesher, positions on the model, placed parts.
@@ -73,27 +60,11 @@ void replace_mesh(SurfaceValue& surface, TriMesh mesh);
 /// Describes how a volume mesh was made in this run. Absent for a mesh that was read from a file.
 struct MeshOrigin {
   surfmesh::StitchOptions surface_options;
-  std::optional<UnionOptions> union_options;
-  std::optional<surfmesh::RepairOptions> repair_options;
-  std::optional<surfmesh::WrapOptions> wrap_options;
-  std::optional<surfmesh::RemeshOptions> remesh_options;
-  std::optional<SurfaceRecipe> recipe;
+  SurfaceHistory history;              ///< history of the wall
   std::optional<double> smooth_angle;  ///< smooth angle of the wall
-  volmesh::MeshCase options;
-  volmesh::LayerReport layer;
-  volmesh::EnvelopeCertificate certificate;
+  volmesh::MeshCase options;           ///< its patch rules include those of the wall
   std::int64_t n_wall_triangles = 0;
-  volmesh::ImproveReport improvement;
-  std::string tetra_engine;
-  std::vector<std::string> tetra_failures;
-  std::string tetra_choice;  ///< VolumeMeshResult::tetra_choice
-  std::int64_t n_split_triangles = 0;
-  volmesh::SliverReport slivers;
-  std::vector<std::string> changes;  ///< changes of the wall
-  std::vector<std::string> changed;  ///< changed figures of the wall
-  bool is_reproducible = true;
-  double tetra_engine_seconds = 0.0;
-  double tetra_engine_peak_bytes = 0.0;
+  volmesh::VolumeMeshReport report;
 };
 
 struct MeshValue {

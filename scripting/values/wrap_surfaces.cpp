@@ -56,23 +56,11 @@ SurfaceValue wrap_surfaces(std::span<const UnionItem> items, const surfmesh::Wra
   surfmesh::WrapOptions used = options;
   used.fluid = read.wall.options.fluid;
   const StageTimer timer(context, k_wrap_stage);
-  WrappedWall made = cached<WrappedWall>(
-      reuse, k_wrap_stage, {}, reuse.cache && !look ? std::optional(wrap_key(read.soups, used)) : std::nullopt, context,
-      [&] { return wrapped(read.soups, used, context.part(k_wrap_stage, k_wrap_read_end, 1.0), look); },
-      [](ByteSink& sink, const WrappedWall& wall) {
-        write_value(sink, wall.mesh);
-        write_value(sink, wall.report);
-      },
-      std::function<WrappedWall(ByteSource&)>([](ByteSource& source) {
-        WrappedWall wall;
-        read_value(source, wall.mesh);
-        read_value(source, wall.report);
-        return wall;
-      }));
+  WrappedWall made = cached<WrappedWall>(reuse, k_wrap_stage, {}, reuse.cache && !look ? std::optional(wrap_key(read.soups, used)) : std::nullopt, context,
+                                         [&] { return wrapped(read.soups, used, context.part(k_wrap_stage, k_wrap_read_end, 1.0), look); });
   SurfaceValue wall = with_mesh(read, std::move(made.mesh), std::move(made.report));
   wall.smooth_angle.reset();  // the angle belongs to the former triangles
-  wall.wrap_options = used;
-  wall.changes.push_back(change_text("wrapped", wall.report.messages));
+  wall.history.push_back({.options = used, .changes = {change_text("wrapped", wall.report.messages)}});
   note_change(wall, compare_geometry(surfmesh::mesh_as_read(read.soups, read.wall.options), wall.mesh, "wrap", context), context);
   context.info(describe(wall) + " (wrapped)");
   return wall;

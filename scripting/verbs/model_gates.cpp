@@ -56,7 +56,7 @@ ScriptValue check_surface(const ScriptCall& call) {
   reader.finish();
   require_model_wall(*surface, call.attempted());
   const RunContext context = call.session.context.part("check", 0.0, 1.0);
-  const surfmesh::Deviation deviation = surfmesh::measure_deviation(surface->mesh, surface->mesh, *surface->model_wall, {}, context);
+  const surfmesh::Deviation deviation = surfmesh::measure_deviation(surface->mesh, surface->mesh, *surface->true_surface.wall, {}, context);
   report_left_out(deviation, context);
   std::string text =
       count_text(deviation.n_nodes) + " nodes and " + count_text(deviation.n_facets) + " triangles against the model, " + describe(*surface) + "\n";
@@ -79,7 +79,7 @@ ScriptValue check_surface(const ScriptCall& call) {
 }  // namespace
 
 void require_model_wall(const SurfaceValue& wall, const std::string& attempted) {
-  if (wall.model_wall) return;
+  if (wall.true_surface.wall) return;
   throw Error({.code = ErrorCode::bad_argument,
                .attempted = attempted,
                .problem = "the surface has no model to be compared with",
@@ -88,7 +88,7 @@ void require_model_wall(const SurfaceValue& wall, const std::string& attempted) 
 }
 
 void measure_on_model(const HybridMesh& mesh, const SurfaceValue& wall, const GateTable& limits, CheckReport& report, const RunContext& context) {
-  surfmesh::Deviation deviation = surfmesh::measure_deviation(mesh, wall.mesh, *wall.model_wall, limits, context);
+  surfmesh::Deviation deviation = surfmesh::measure_deviation(mesh, wall.mesh, *wall.true_surface.wall, limits, context);
   report_left_out(deviation, context);
   report.put(std::move(deviation.distance));
   report.put(std::move(deviation.normal));

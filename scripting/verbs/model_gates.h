@@ -14,7 +14,7 @@ namespace sterna::scripting {
 void require_model_wall(const SurfaceValue& wall, const std::string& attempted);
 
 /// Measures the mesh's walls against the model of `wall` and adds both gates to the report. Walls that cannot be measured are reported in the log.
-/// \pre wall.model_wall; report.quality_measured
+/// \pre wall.true_surface.wall; report.quality_measured
 void measure_on_model(const HybridMesh& mesh, const SurfaceValue& wall, const GateTable& limits, CheckReport& report, const RunContext& context);
 
 /// The method surface:check.

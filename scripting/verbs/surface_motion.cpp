@@ -61,7 +61,7 @@ constexpr std::array<ScriptVerb, 2> k_motions = {{
 SurfaceValue moved_surface(const SurfaceValue& surface, const Transform& motion) {
   SurfaceValue moved = surface;
   moved.parts = parts_of(surface);
-  if (surface.model_wall) moved.model_wall = std::make_shared<const surfmesh::ModelWall>(*surface.model_wall, motion);
+  if (surface.true_surface.wall) moved.true_surface.wall = std::make_shared<const surfmesh::ModelWall>(*surface.true_surface.wall, motion);
   if (moved.mesh_report) move_locations(motion, *moved.mesh_report);
   // The motion starts from the part's own frame each time, so that two motions have the same rounding as one.
   for (volmesh::PlacedPart& part : moved.parts) {
@@ -89,8 +89,7 @@ SurfaceValue side_by_side(std::span<const SurfaceHandle> surfaces, const RunCont
     all.report.n_vertices_read += surface->report.n_vertices_read;
     all.inputs.insert(all.inputs.end(), surface->inputs.begin(), surface->inputs.end());
     all.layers.insert(all.layers.end(), surface->layers.begin(), surface->layers.end());
-    all.changes.insert(all.changes.end(), surface->changes.begin(), surface->changes.end());
-    all.changed.insert(all.changed.end(), surface->changed.begin(), surface->changed.end());
+    inherit(all.history, surface->history);
     if (!surface->smooth_angle) all.smooth_angle.reset();
     else if (all.smooth_angle) all.smooth_angle = std::max(*all.smooth_angle, *surface->smooth_angle);
   }

@@ -50,9 +50,9 @@ SceneJson scene_of(std::string_view kind) { return {{"schema", "sterna-scene-1"}
 void add_surface(SceneJson& scene, std::span<const Point> points, const PageTriangles& triangles, const Column<PatchId, Patch>& patches,
                  const std::vector<SurfaceField>& fields, const SceneOptions& options, PageArrays& arrays) {
   const PageMaker maker(points, triangles, patches, fields);
-  scene.update(SceneJson::parse(maker.frame_json()));
-  scene["patches"] = SceneJson::parse(maker.patches_json());
-  scene["surface"] = SceneJson::parse(maker.surface_json(options.max_triangles, arrays));
+  scene.update(maker.frame_json());
+  scene["patches"] = maker.patches_json();
+  scene["surface"] = maker.surface_json(options.max_triangles, arrays);
 }
 
 // ---- Models --------------------------------------------------------------------------------------------------------------------------------
@@ -201,7 +201,7 @@ std::string surface_scene(const SurfaceValue& value, const SceneOptions& options
   if (value.report.is_closed) add_fact(scene, "volume", number_text(std::abs(volume), 5) + " m^3");
   add_fact(scene, "closed", value.report.is_closed ? "yes" : "no");
   if (value.mesh_report) add_fact(scene, "smallest angle", number_text(value.mesh_report->min_angle * 180.0 / std::numbers::pi, 3) + " deg");
-  for (const std::string& change : value.changes) add_fact(scene, "changed", change);
+  for (const std::string& change : changes_of(value.history)) add_fact(scene, "changed", change);
   return block_of(scene, arrays);
 }
 
@@ -243,7 +243,7 @@ std::string mesh_scene(const MeshValue& value, const SceneOptions& options, cons
   PageArrays arrays;
   const std::vector<SurfaceField> fields = surface_fields(mesh, context);
   add_surface(scene, mesh.points.raw(), page_triangles(mesh), mesh.patches, fields, options, arrays);
-  scene.update(SceneJson::parse(page_check_json(*value.check)));
+  scene.update(page_check_json(*value.check));
   const Vec3 normal = symmetry_normal(mesh);
   scene["symmetry_normal"] = SceneJson::array({normal.x, normal.y, normal.z});
   const CellCounts cells = count_cells(mesh);
@@ -252,8 +252,8 @@ std::string mesh_scene(const MeshValue& value, const SceneOptions& options, cons
                                 std::pair("tetrahedra", cells.tetrahedra)})
     if (n > 0) add_fact(scene, name, count_text(n));
   if (value.origin) {
-    add_fact(scene, "mean height of the layer", metres(value.origin->layer.mean_height));
-    add_fact(scene, "full height", number_text(100.0 * value.origin->layer.coverage, 4) + " % of the area");
+    add_fact(scene, "mean height of the layer", metres(value.origin->report.layer.mean_height));
+    add_fact(scene, "full height", number_text(100.0 * value.origin->report.layer.coverage, 4) + " % of the area");
   }
   return block_of(scene, arrays);
 }
@@ -309,7 +309,7 @@ std::string cut_bytes(const ScriptValue& value, const std::string& plane_text, s
   const MeshCut cut = cut_mesh((*mesh)->mesh, *plane, context);
   PageArrays arrays;
   const CutLocation location{.name = plane_text, .plane = *plane, .focus = plane->origin, .radius = 1.0};
-  return block_of(SceneJson::parse(page_cut_json(location, cut, max_polygons, arrays)), arrays);
+  return block_of(page_cut_json(location, cut, max_polygons, arrays), arrays);
 }
 
 }  // namespace sterna::scripting

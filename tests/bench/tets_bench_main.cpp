@@ -140,10 +140,10 @@ Timing fill_domain(const std::string& engine, double n_tets, const Settings& set
   const auto n = static_cast<double>(result.tetrahedra.size());
   const double recovery = seconds_of(context, "tetrahedra/recovery"), refinement = seconds_of(context, "tetrahedra/refinement");
   std::printf("| fill | %s | %zu | %.0f | %.2f | %.0f | %.2f | %.2f | %.0f | %.2f | %.3f | %.0f |\n", engine.c_str(), triangles.size(), n,
-              result.engine_seconds, n / result.engine_seconds / 1000.0, recovery, refinement, refinement > 0.0 ? n / refinement / 1000.0 : 0.0, used,
+              double(result.engine_seconds), n / result.engine_seconds / 1000.0, recovery, refinement, refinement > 0.0 ? n / refinement / 1000.0 : 0.0, used,
               mean_edge(boundary, result) / size, result.engine_peak_bytes / 1e6);
   std::fflush(stdout);
-  return {n, result.engine_seconds};
+  return {n, double(result.engine_seconds)};
 }
 
 }  // namespace

@@ -55,7 +55,7 @@ TEST(Parts, MovedModelHasTrianglesOfItsFrame) {
   for (const VertexId v : still.mesh.points.ids()) ASSERT_EQ(turned.mesh.points[v], both.point(still.mesh.points[v]));
   // The underlying model is at the position of the mesh.
   const auto p = corners(turned.mesh, TriangleId(0));
-  EXPECT_LT(distance(turned.model_wall->nearest(p[0], TriangleId(0), {1.0, 0.0, 0.0}), p[0]), 1e-12);
+  EXPECT_LT(distance(turned.true_surface.wall->nearest(p[0], TriangleId(0), {1.0, 0.0, 0.0}), p[0]), 1e-12);
 }
 
 TEST(Parts, AMotionThatMovesNothingChangesNothing) {

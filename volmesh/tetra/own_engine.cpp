@@ -145,7 +145,7 @@ bool refine_mesh(const EngineInput& input, tets::TetMesh mesh, double most_bytes
   result.tetrahedra = std::move(mesh.nodes);
   result.engine = to_string(EngineKind::sterna);
   result.engine_seconds += seconds;
-  result.engine_peak_bytes = std::max(result.engine_peak_bytes, report.bytes);
+  result.engine_peak_bytes = std::max<double>(result.engine_peak_bytes, report.bytes);
   return true;
 }
 

@@ -8,6 +8,7 @@
 #include <vector>
 
 #include "geom/base/error.h"
+#include "geom/base/measured.h"
 #include "geom/base/run_context.h"
 #include "geom/mesh/tri_mesh.h"
 #include "volmesh/case/clear_proof.h"
@@ -44,8 +45,8 @@ struct TetraResult {
   bool is_two_pass = false;                              ///< sizes came from a coarse mesh
   std::vector<std::string> failures;                     ///< failures of the previous attempts, in order
   bool is_reproducible = true;                           ///< false if a time or memory limit affected the choice of the engine
-  double engine_seconds = 0.0;                           ///< time inside the engine alone, for the log only
-  double engine_peak_bytes = 0.0;                        ///< peak memory of the helper process, for the log only
+  Measured engine_seconds;                               ///< time inside the engine alone, for the log only
+  Measured engine_peak_bytes;                            ///< peak memory of the helper process, for the log only
 };
 
 /// Error of fill() after engines have failed.

@@ -211,7 +211,7 @@ Triangles spindle(double first, double share, int n, int m, double offset = 0.0)
 TEST_F(GeometryKept, QuarterOfABodyIsAnOpenDomain) {
   const SurfaceValue wall = automatic({{"body", spindle(0.0, 0.25, 12, 5)}});
   EXPECT_FALSE(wall.report.is_closed);
-  EXPECT_TRUE(wall.changes.empty());
+  EXPECT_TRUE(changes_of(wall.history).empty());
   EXPECT_THAT(log_, HasSubstr("planes y = 0 m and z = 0 m"));
 }
 

@@ -21,7 +21,7 @@ namespace {
 namespace fs = std::filesystem;
 using testing::HasSubstr;
 using volmesh::FindingKind;
-using Json = nlohmann::json;
+using PlainJson = nlohmann::json;
 
 class InspectFiles : public ScriptFixture {
  protected:
@@ -110,7 +110,7 @@ class Preparing : public InspectFiles {
   static std::string done_by_auto(const std::string& path) {
     const std::vector<InputPath> files = {{path, path}};
     const SurfaceValue wall = auto_surface(files, {}, {}, RunContext({.threads = 2}));
-    for (const std::string& change : wall.changes)  // remesh may follow
+    for (const std::string& change : changes_of(wall.history))  // remesh may follow
       if (change.starts_with("repaired") || change.starts_with("wrapped")) return change.substr(0, change.find(':'));
     return "nothing";
   }
@@ -176,7 +176,7 @@ TEST_F(Preparing, NeedlesAskForRemesh) {
   EXPECT_THAT(p.reason, HasSubstr("below 5 deg"));
   EXPECT_THAT(p.command, HasSubstr("sterna remesh "));
   const test::ProcessResult json = sterna({path, "--json"});
-  const Json reported = Json::parse(json.output)["preparation"];
+  const PlainJson reported = PlainJson::parse(json.output)["preparation"];
   EXPECT_EQ(reported["needed"], "remesh");
   EXPECT_EQ(reported["remesh"], true);
   EXPECT_DOUBLE_EQ(reported["needle_share"].get<double>(), p.needle_share);
@@ -189,7 +189,7 @@ TEST_F(Preparing, ModelsAreMeshedFirst) {
   run("box{ {0, 0, 0}, {1, 1, 1}, name = 'a' }:write(" + out("box.step") + ")");
   const test::ProcessResult result = sterna({"box.step", "--json"});
   ASSERT_EQ(result.status, 0) << result.errors;
-  const Json json = Json::parse(result.output);
+  const PlainJson json = PlainJson::parse(result.output);
   EXPECT_TRUE(json["closed"]);
   EXPECT_EQ(json["preparation"]["needed"], "none");
   EXPECT_EQ(json["preparation"]["model"], true);
@@ -281,7 +281,7 @@ TEST_F(InspectFiles, AnswerTheShell) {
   append(two, other);
   const test::ProcessResult bad = sterna({write(two, "two.stl"), "--json", "-o", (folder_ / "two.vtu").string()});
   EXPECT_EQ(bad.status, 1);
-  const Json json = Json::parse(bad.output);
+  const PlainJson json = PlainJson::parse(bad.output);
   EXPECT_EQ(json["schema"], "sterna-inspect-1");
   EXPECT_FALSE(json["ok"]);
   EXPECT_EQ(json["findings"][0]["kind"], "crossing");

@@ -20,7 +20,7 @@
 namespace sterna::scripting {
 namespace {
 
-using Json = nlohmann::json;
+using PlainJson = nlohmann::json;
 
 template <std::size_t N, class Nodes>
 std::array<Point, N> points_of(const HybridMesh& mesh, const Nodes& nodes) {
@@ -71,20 +71,20 @@ class DamagedMeshes : public testing::Test {
     std::vector<std::string> strict = {"--quiet", "check", "damaged.sterna", "--strict"};
     if (is_valid) strict.insert(strict.end(), {"--gate", measure + ":hard=" + own});
     EXPECT_EQ(test::run_process(test::sterna_program(), strict, folder_).status, k_exit_invalid);
-    const Json report = Json::parse(check.output);
+    const PlainJson report = PlainJson::parse(check.output);
     EXPECT_EQ(report["verdict"], is_valid ? "VALID" : "INVALID");
     double nearest = std::numeric_limits<double>::infinity();
-    const auto look_at = [&](const Json& p) { nearest = std::min(nearest, distance(location, Point{p[0], p[1], p[2]})); };
+    const auto look_at = [&](const PlainJson& p) { nearest = std::min(nearest, distance(location, Point{p[0], p[1], p[2]})); };
     if (is_valid) {
-      for (const Json& entry : report["measures"]) {
+      for (const PlainJson& entry : report["measures"]) {
         if (entry["measure"] != measure) continue;
         EXPECT_EQ(entry["state"], "warn") << entry.dump(1);
-        for (const Json& found : entry["places"]) look_at(found["position"]);
+        for (const PlainJson& found : entry["places"]) look_at(found["position"]);
       }
     } else {
       EXPECT_EQ(report["gates"][gate]["state"], "fail") << report["gates"].dump(1);
       EXPECT_GE(report["violations"].value(measure, 0), 1) << report["violations"].dump(1);
-      for (const Json& finding : report["findings"])
+      for (const PlainJson& finding : report["findings"])
         if (finding["violation"] == measure) look_at(finding["position"]);
     }
     EXPECT_LT(nearest, within) << gate << " " << measure;
@@ -104,10 +104,10 @@ class DamagedMeshes : public testing::Test {
   void expect_in_page(const std::string& gate, const std::string& measure, const Point& location, double within, bool is_valid) {
     const test::ProcessResult made = test::run_process(test::sterna_program(), {"--quiet", "report", "damaged.sterna", "-o", "damaged.html"}, folder_);
     EXPECT_EQ(made.status, is_valid ? k_exit_success : k_exit_invalid) << made.errors;
-    const Json page = test::page_json(folder_ / "damaged.html");
+    const PlainJson page = test::page_json(folder_ / "damaged.html");
     EXPECT_EQ(page["verdict"], is_valid ? "VALID" : "INVALID");
     double nearest = std::numeric_limits<double>::infinity();
-    for (const Json& found : page["places"]) {
+    for (const PlainJson& found : page["places"]) {
       if (found["gate"] != gate || found["measure"] != measure) continue;
       EXPECT_EQ(found["state"], is_valid ? "warn" : "invalid");
       nearest = std::min(nearest, distance(location, Point{found["at"][0], found["at"][1], found["at"][2]}));
