@@ -129,26 +129,55 @@ constexpr OptionKind kind_of_member() {
 }
 
 template <class M>
-OptionValue value_of_member(const M& value) {
+OptionValue option_value_of(const M& value) {
   if constexpr (std::is_same_v<M, int>) return static_cast<std::int64_t>(value);
   else if constexpr (std::is_same_v<M, std::optional<Vec3>>) return value ? OptionValue(*value) : OptionValue(std::monostate{});
   else return value;
 }
 
-template <class T, class M>
-void set_access(Option& option, T& object, const T& defaults, M T::*member) {
-  option.kind = kind_of_member<M>();
-  option.default_value = value_of_member(defaults.*member);
-  option.get = [&object, member] { return value_of_member(object.*member); };
-  option.store = [&object, member](const OptionValue& v) {
-    if constexpr (std::is_same_v<M, int>) object.*member = static_cast<int>(std::get<std::int64_t>(v));
-    else if constexpr (std::is_same_v<M, std::optional<Vec3>>)
-      object.*member = std::holds_alternative<Vec3>(v) ? std::optional(std::get<Vec3>(v)) : std::nullopt;
-    else object.*member = std::get<M>(v);
-  };
+template <class M>
+void store_value(M& member, const OptionValue& value) {
+  const std::int64_t* whole = std::get_if<std::int64_t>(&value);
+  if constexpr (std::is_same_v<M, int>) member = static_cast<int>(std::get<std::int64_t>(value));
+  else if constexpr (std::is_same_v<M, double>) member = whole ? static_cast<double>(*whole) : std::get<double>(value);
+  else if constexpr (std::is_same_v<M, std::optional<Vec3>>) member = std::holds_alternative<Vec3>(value) ? std::optional(std::get<Vec3>(value)) : std::nullopt;
+  else member = std::get<M>(value);
 }
 
 }  // namespace detail
+
+/// Returns the kind of the option that a field describes.
+template <class T>
+OptionKind kind_of_field(const Field<T>& field) {
+  return std::visit(
+      []<class Member>(const Member&) {
+        if constexpr (std::is_same_v<Member, EnumMember<T>>) return OptionKind::string;
+        else return detail::kind_of_member<std::remove_reference_t<decltype(std::declval<T&>().*std::declval<Member>())>>();
+      },
+      field.member);
+}
+
+/// Returns the value of the member that a field describes.
+template <class T>
+OptionValue value_of_member(const T& object, const Field<T>& field) {
+  return std::visit(
+      [&]<class Member>(const Member& member) -> OptionValue {
+        if constexpr (std::is_same_v<Member, EnumMember<T>>) return std::string(detail::choice_at(field.choices, member.get(object)));
+        else return detail::option_value_of(object.*member);
+      },
+      field.member);
+}
+
+/// Stores a value in the member that a field describes, without any check. Whole numbers are accepted for floating-point members.
+template <class T>
+void store_member(T& object, const Field<T>& field, const OptionValue& value) {
+  std::visit(
+      [&]<class Member>(const Member& member) {
+        if constexpr (std::is_same_v<Member, EnumMember<T>>) member.set(object, detail::index_of_choice(field.choices, std::get<std::string>(value)));
+        else detail::store_value(object.*member, value);
+      },
+      field.member);
+}
 
 /// Returns the options of `instance`, in schema order. `instance` must outlive the table.
 template <class T>
@@ -167,20 +196,10 @@ OptionTable options_of(T& instance) {
     option.automatic = field.automatic;
     option.choices = field.choices;
     option.required = field.required;
-    std::visit(
-        [&]<class Member>(Member member) {
-          T* object = &instance;
-          if constexpr (std::is_same_v<Member, EnumMember<T>>) {
-            const std::string_view choices = field.choices;
-            option.kind = OptionKind::string;
-            option.default_value = std::string(detail::choice_at(choices, member.get(defaults)));
-            option.get = [object, member, choices] { return OptionValue(std::string(detail::choice_at(choices, member.get(*object)))); };
-            option.store = [object, member, choices](const OptionValue& v) { member.set(*object, detail::index_of_choice(choices, std::get<std::string>(v))); };
-          } else {
-            detail::set_access(option, *object, defaults, member);
-          }
-        },
-        field.member);
+    option.kind = kind_of_field(field);
+    option.default_value = value_of_member(defaults, field);
+    option.get = [object = &instance, described = &field] { return value_of_member(*object, *described); };
+    option.store = [object = &instance, described = &field](const OptionValue& value) { store_member(*object, *described, value); };
     table.push_back(std::move(option));
   }
   return table;

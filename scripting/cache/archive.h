@@ -187,12 +187,48 @@ struct Archive<std::shared_ptr<const T>> {
   }
 };
 
-/// Variants are supported for keys only.
+template <class Key, class T, class Less>
+struct Archive<std::map<Key, T, Less>> {
+  static void write(ByteSink& sink, const std::map<Key, T, Less>& value) {
+    write_count(sink, value.size());
+    for (const auto& [key, item] : value) {
+      write_value(sink, key);
+      write_value(sink, item);
+    }
+  }
+  static void read(ByteSource& source, std::map<Key, T, Less>& value) {
+    value.clear();
+    for (std::size_t n = read_count(source, 1); n > 0; --n) {
+      Key key{};
+      read_value(source, key);
+      read_value(source, value[std::move(key)]);
+    }
+  }
+};
+
+template <>
+struct Archive<std::monostate> {
+  static void write(ByteSink&, const std::monostate&) {}
+  static void read(ByteSource&, std::monostate&) {}
+};
+
 template <class... T>
 struct Archive<std::variant<T...>> {
   static void write(ByteSink& sink, const std::variant<T...>& value) {
     write_count(sink, value.index());
     std::visit([&](const auto& held) { write_value(sink, held); }, value);
+  }
+  static void read(ByteSource& source, std::variant<T...>& value) {
+    std::uint64_t index = 0;
+    source.take(&index, sizeof index);
+    if (index >= sizeof...(T)) source.refuse();
+    read_alternative(source, value, index, std::index_sequence_for<T...>{});
+  }
+
+ private:
+  template <std::size_t... I>
+  static void read_alternative(ByteSource& source, std::variant<T...>& value, std::uint64_t index, std::index_sequence<I...>) {
+    (void)((index == I && (read_value(source, value.template emplace<I>()), true)) || ...);
   }
 };
 

@@ -354,7 +354,7 @@ MeshValue make_mesh(const MeshCommand& command, const Reuse& reuse, const Comman
     return make_mesh_of_models(command, inputs, reuse, context);
   AutoSurface requested;
   volmesh::MeshCase volume_options;
-  std::vector<surfmesh::PatchSurfaceOptions> sizes;  // sizes of the new triangles
+  std::vector<Rule> sizes;  // sizes of the new triangles
   volume_options.patches = layer_rules_of(command.volume.patches, command.is_remeshed ? &sizes : nullptr);
   requested.stitching.allow_open = command.volume.is_half;
   OptionTable table = volmesh::required_options_of(volume_options);

@@ -70,8 +70,8 @@ void refuse_on_triangulations(const SurfaceCommand& command) {
   for (const auto& [name, text] : command.options)
     if (name != "unit" && name != "read_cad.unit" && !name.starts_with("remesh.") && !name.starts_with("repair.") && !name.starts_with("wrap.")) add(name);
   if (!command.sources.empty()) add("--source");
-  surfmesh::PatchSurfaceOptions sizes;
-  const OptionTable table = patch_rule_options(sizes);
+  Rule sizes;
+  const OptionTable table = size_rule_options(sizes);
   for (const auto& [pattern, options] : command.patches)
     for (const auto& [name, text] : options)
       if (std::ranges::find(table, name, &Option::name) != table.end()) add("--patch " + pattern + ":" + name);
@@ -101,7 +101,7 @@ int execute(const SurfaceCommand& command, const CommandContext& context) {
     throw Error({.code = ErrorCode::bad_argument, .attempted = "option " + of_stages.front().first, .problem = "is given without --auto"});
   set_options(model_surface_options(recipe.options, reading), own, context);
   for (const auto& option : of_stages) set_options(stage_of(option.first), {option}, context);
-  const std::vector<volmesh::PatchRule> layers = layer_rules_of(command.patches, &recipe.patches);
+  const std::vector<Rule> layers = layer_rules_of(command.patches, &recipe.patches);
   for (const std::string& source : command.sources) recipe.sources.push_back(source_of_text(source));
   if (!recipe.sources.empty()) recipe.sources_text = sources_text(recipe.sources, false);
   refuse_on_triangulations(command);

@@ -151,12 +151,12 @@ std::string manifest_json(const MeshValue& mesh, const std::filesystem::path& ou
     if (mesh.origin->recipe)
       for (Option& option : sterna::options_of(recipe.options)) options.push_back(std::move(option));
     json["options"] = Json::parse(options_to_json(options));
-    if (!recipe.patches.empty()) json["surface_patches"] = Json::parse(patch_rules_json(recipe.patches));
+    if (!recipe.patches.empty()) json["surface_patches"] = Json::parse(rules_json(recipe.patches));
     if (!recipe.sources_text.empty()) json["surface_sources"] = Json::parse(recipe.sources_text);
     if (!mesh.origin->changes.empty()) json["changes"] = mesh.origin->changes;
     if (!mesh.origin->changed.empty()) json["changed"] = Json::parse(changed_json(mesh.origin->changed));
     if (mesh.origin->smooth_angle) json["wall"] = {{"max_smooth_angle", *mesh.origin->smooth_angle}};
-    if (!volume.patches.empty()) json["patch_rules"] = Json::parse(layer_rules_json(volume.patches));
+    if (!volume.patches.empty()) json["patch_rules"] = Json::parse(rules_json(volume.patches));
     if (volume.first_heights)
       json["first_heights"] = {{"by", "a function of location"}, {"least", volume.first_heights->least()}, {"greatest", volume.first_heights->greatest()}};
     if (!volume.sources.empty()) json["sources"] = Json::parse(sources_text(volume.sources, false));

@@ -26,12 +26,12 @@ SpaceSizes in_frame(const SpaceSizes& sizes, const Transform& placement) {
 }
 
 /// Returns the rules that apply to a part, and those that apply to no part. mesh_model rejects the latter.
-std::vector<surfmesh::PatchSurfaceOptions> rules_for(const Model& part, const Model& all, const std::vector<surfmesh::PatchSurfaceOptions>& rules) {
-  const auto concerns = [](const Model& model, const surfmesh::PatchSurfaceOptions& rule) {
+std::vector<Rule> rules_for(const Model& part, const Model& all, const std::vector<Rule>& rules) {
+  const auto concerns = [](const Model& model, const Rule& rule) {
     return std::any_of(model.faces.begin(), model.faces.end(), [&](const ModelFace& face) { return matches_glob(face.name, rule.names); });
   };
-  std::vector<surfmesh::PatchSurfaceOptions> result;
-  for (const surfmesh::PatchSurfaceOptions& rule : rules)
+  std::vector<Rule> result;
+  for (const Rule& rule : rules)
     if (concerns(part, rule) || !concerns(all, rule)) result.push_back(rule);
   return result;
 }

@@ -56,12 +56,6 @@ surfmesh::SpaceSizes space_sizes(const SurfaceRecipe& recipe, const std::functio
 
 /// Returns the same options, with those of bands in separate stages: leading_edge = { chordwise = 0.004 } stands for leading_edge_chordwise.
 OptionTable with_edge_tables(OptionTable table);
-/// Returns the options of one entry of patches = { ["wing*"] = { max_edge = 0.1 } }. `rule` must outlive the table.
-OptionTable patch_rule_options(surfmesh::PatchSurfaceOptions& rule);
-/// patch_rules_json returns a list of objects with the options that each rule sets, for manifests; the second function reads such a list.
-/// \throws Error(file_malformed, bad_argument)
-std::string patch_rules_json(const std::vector<surfmesh::PatchSurfaceOptions>& rules);
-std::vector<surfmesh::PatchSurfaceOptions> patch_rules_of_json(const std::string& text);
 /// Returns the sources of a size field as a JSON list, for manifests. Samples are given only by their number. Empty if there are neither sources nor a
 /// function.
 std::string sources_text(const std::vector<volmesh::SizeSource>& sources, bool has_function);

@@ -119,24 +119,24 @@ Json stage_json(const volmesh::FilledStage& filled, std::int64_t n_wall_triangle
 
 /// Returns, for placed parts, the default limits of their layer thickness. They are based on the parts' own lengths, which do not change with their attitude or
 /// their neighbours.
-std::vector<volmesh::PatchRule> thickness_rules(const SurfaceValue& wall, const volmesh::MeshCase& options) {
-  std::vector<volmesh::PatchRule> rules;
+std::vector<Rule> thickness_rules(const SurfaceValue& wall, const volmesh::MeshCase& options) {
+  std::vector<Rule> rules;
   if (!is_automatic(options.envelope.max_thickness)) return rules;
   for (const volmesh::PlacedPart& part : wall.parts) {
     const double thickness = volmesh::k_default_thickness_share * body_length(*part.own);
     for (const Patch& patch : part.own->patches) {
       if (patch.kind != PatchKind::wall) continue;  // only walls carry layers
-      const auto known = std::ranges::find_if(rules, [&](const volmesh::PatchRule& rule) { return rule.names == patch.name; });
-      if (known == rules.end()) rules.push_back({.names = patch.name, .max_thickness = thickness});
-      else known->max_thickness = std::max(known->max_thickness, thickness);
+      const auto known = std::ranges::find_if(rules, [&](const Rule& rule) { return rule.names == patch.name; });
+      if (known == rules.end()) rules.push_back({.names = patch.name, .options = {{"max_thickness", thickness}}});
+      else known->options["max_thickness"] = std::max(value_or(*known, "max_thickness", thickness), thickness);
     }
   }
   return rules;
 }
 
 /// Returns the rules for patches: first defaults of placed parts, then rules of the makers of the wall, then rules of the user. Later rules win.
-std::vector<volmesh::PatchRule> rules_of(const SurfaceValue& wall, const volmesh::MeshCase& options) {
-  std::vector<volmesh::PatchRule> rules = thickness_rules(wall, options);
+std::vector<Rule> rules_of(const SurfaceValue& wall, const volmesh::MeshCase& options) {
+  std::vector<Rule> rules = thickness_rules(wall, options);
   rules.insert(rules.end(), wall.layers.begin(), wall.layers.end());
   rules.insert(rules.end(), options.patches.begin(), options.patches.end());
   return rules;
@@ -153,12 +153,12 @@ std::string unfinished_json(const SurfaceValue& wall, const volmesh::MeshCase& o
   if (wall.recipe)
     for (Option& option : sterna::options_of(recipe.options)) table.push_back(std::move(option));
   json["options"] = Json::parse(options_to_json(table));
-  if (!recipe.patches.empty()) json["surface_patches"] = Json::parse(patch_rules_json(recipe.patches));
+  if (!recipe.patches.empty()) json["surface_patches"] = Json::parse(rules_json(recipe.patches));
   if (!recipe.sources_text.empty()) json["surface_sources"] = Json::parse(recipe.sources_text);
   if (!wall.changes.empty()) json["changes"] = wall.changes;
   if (!wall.changed.empty()) json["changed"] = Json::parse(changed_json(wall.changed));
   if (wall.smooth_angle) json["wall"] = {{"max_smooth_angle", *wall.smooth_angle}};
-  if (const std::vector<volmesh::PatchRule> rules = rules_of(wall, options); !rules.empty()) json["patch_rules"] = Json::parse(layer_rules_json(rules));
+  if (const std::vector<Rule> rules = rules_of(wall, options); !rules.empty()) json["patch_rules"] = Json::parse(rules_json(rules));
   if (!options.sources.empty()) json["sources"] = Json::parse(values_to_json(options.sources));
   if (!options.discs.empty()) json["actuator_discs"] = Json::parse(values_to_json(options.discs));
   if (!options.wakes.empty()) json["wake_sheets"] = Json::parse(values_to_json(options.wakes));
@@ -199,9 +199,7 @@ class StageJson {
     }
   }
 
-  std::vector<volmesh::PatchRule> patch_rules() const {
-    return json_.contains("patch_rules") ? layer_rules_of_json(json_.at("patch_rules").dump()) : std::vector<volmesh::PatchRule>{};
-  }
+  std::vector<Rule> patch_rules() const { return json_.contains("patch_rules") ? layer_rules_of_json(json_.at("patch_rules").dump()) : std::vector<Rule>{}; }
 
   volmesh::EnvelopeStep step() const {
     return json_.contains(Json::json_pointer("/stage/step")) ? volmesh::envelope_step_of(get<std::string>("/stage/step")) : volmesh::EnvelopeStep::finished;
@@ -212,7 +210,7 @@ class StageJson {
     if (!json_.contains(Json::json_pointer("/options/surface_mesh"))) return std::nullopt;
     SurfaceRecipe result;
     read_options(sterna::options_of(result.options));
-    if (json_.contains("surface_patches")) result.patches = patch_rules_of_json(json_.at("surface_patches").dump());
+    if (json_.contains("surface_patches")) result.patches = size_rules_of_json(json_.at("surface_patches").dump());
     if (json_.contains("surface_sources")) result.sources_text = json_.at("surface_sources").dump();
     return result;
   }

@@ -121,7 +121,7 @@ std::string surface_manifest_json(const SurfaceValue& surface, const std::filesy
   for (const InputFile& input : surface.inputs) json["inputs"].push_back({{"file", input.name}, {"xxh3_128", input.hash}});
   SurfaceRecipe recipe = surface.recipe.value_or(SurfaceRecipe{});
   if (surface.recipe || surface.mesh_report) json["options"] = Json::parse(options_to_json(sterna::options_of(recipe.options)));
-  if (!recipe.patches.empty()) json["surface_patches"] = Json::parse(patch_rules_json(recipe.patches));
+  if (!recipe.patches.empty()) json["surface_patches"] = Json::parse(rules_json(recipe.patches));
   json["patches"] = Json::array();
   Column<PatchId, std::int64_t> n_triangles(surface.mesh.patches.size(), 0);
   for (const PatchId patch : surface.mesh.triangle_patch) ++n_triangles[patch];
@@ -130,7 +130,7 @@ std::string surface_manifest_json(const SurfaceValue& surface, const std::filesy
         {{"name", surface.mesh.patches[patch].name}, {"kind", to_string(surface.mesh.patches[patch].kind)}, {"triangles", n_triangles[patch]}});
   if (!surface.changes.empty()) json["changes"] = surface.changes;
   if (!surface.changed.empty()) json["changed"] = Json::parse(changed_json(surface.changed));
-  if (!surface.layers.empty()) json["layers"] = Json::parse(layer_rules_json(surface.layers));
+  if (!surface.layers.empty()) json["layers"] = Json::parse(rules_json(surface.layers));
   json["mesh"] = {{"vertices", surface.mesh.n_vertices()},
                   {"triangles", surface.mesh.n_triangles()},
                   {"closed", surface.report.is_closed},

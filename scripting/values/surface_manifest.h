@@ -27,7 +27,7 @@ struct KnownSurface {
   std::optional<double> smooth_angle;      ///< rad: SurfaceMeshReport::max_smooth_angle
   std::map<std::string, PatchKind> kinds;  ///< kinds of its patches by name: surface formats do not hold them
   bool encloses_fluid = false;             ///< the outermost part of the surface has inward normals
-  std::vector<volmesh::PatchRule> layers;  ///< SurfaceValue::layers
+  std::vector<Rule> layers;                ///< SurfaceValue::layers
   std::vector<std::string> changes;        ///< SurfaceValue::changes
   std::vector<std::string> changed;        ///< SurfaceValue::changed
 };

@@ -24,7 +24,7 @@
 #include "surfmesh/repair/repair_surface.h"
 #include "surfmesh/stitch/stitch_surface.h"
 #include "surfmesh/wrap/wrap_surface.h"
-#include "volmesh/case/patch_rule.h"
+#include "volmesh/case/layer_rules.h"
 #include "volmesh/case/placed_part.h"
 #include "volmesh/volume_mesh.h"
 
@@ -39,9 +39,9 @@ struct InputFile {
 /// The request to surface_mesh.
 struct SurfaceRecipe {
   surfmesh::SurfaceMeshOptions options;
-  std::vector<surfmesh::PatchSurfaceOptions> patches;  ///< rules of faces; the last rule that matches a face applies
-  std::vector<volmesh::SizeSource> sources;            ///< sources in space
-  std::string sources_text;                            ///< JSON of the sources, and if there was a function, for manifests; empty if there is neither
+  std::vector<Rule> patches;                 ///< rules of faces; the last rule that matches a face applies
+  std::vector<volmesh::SizeSource> sources;  ///< sources in space
+  std::string sources_text;                  ///< JSON of the sources, and if there was a function, for manifests; empty if there is neither
 };
 
 /// A surface with its origin.
@@ -57,7 +57,7 @@ struct SurfaceValue {
   std::optional<SurfaceRecipe> recipe = {};                     ///< set for a surface made by surface_mesh
   std::optional<surfmesh::SurfaceMeshReport> mesh_report = {};  ///< set for a surface made by surface_mesh, unless it was read from a file
   std::optional<double> smooth_angle = {};  ///< rad; largest turn where the surface is smooth, from surface_mesh or from the manifest beside the file
-  std::vector<volmesh::PatchRule> layers =
+  std::vector<Rule> layers =
       {};  ///< layer rules for patches, set by the makers of the model, in order. The last rule for a name applies, and the user's own rules come after these
   std::shared_ptr<const surfmesh::ModelWall> model_wall = {};  ///< set for a surface made by surface_mesh in this run: gives the positions of new vertices
   std::vector<volmesh::PlacedPart> parts = {};    ///< parts meshed or read elsewhere and moved to their locations; in ascending order of their triangles

@@ -32,17 +32,18 @@ struct BandTargets {
 /// Returns the requirements of faces (patches) with this name. Rules override the options for all, member by member. Lengths and growth are those of the
 /// current member of the refinement family.
 template <class Options>
-BandTargets band_targets(const std::string& name, const Options& options, std::span<const PatchSurfaceOptions> patches);
+BandTargets band_targets(const std::string& name, const Options& options, std::span<const Rule> patches);
 
-/// Applies the rules for this name to given requirements. \param refinement refinement factor of the current member of the refinement family
-BandTargets band_targets(const std::string& name, BandTargets targets, double refinement, std::span<const PatchSurfaceOptions> patches);
+/// Names the rules that set given requirements, and makes them those of the current member. \param refinement refinement factor of the current member
+BandTargets band_targets(const std::string& name, BandTargets targets, double refinement, std::span<const Rule> patches);
 
 template <class Options>
-BandTargets band_targets(const std::string& name, const Options& options, std::span<const PatchSurfaceOptions> patches) {
+BandTargets band_targets(const std::string& name, const Options& options, std::span<const Rule> patches) {
+  const Options own = resolve(options, patches, name);
   return band_targets(name,
-                      {{options.leading_edge_chordwise, options.leading_edge_stretch, options.leading_edge_growth, {}},
-                       {options.trailing_edge_chordwise, options.trailing_edge_stretch, options.trailing_edge_growth, {}}},
-                      options.refinement, patches);
+                      {{own.leading_edge_chordwise, own.leading_edge_stretch, own.leading_edge_growth, {}},
+                       {own.trailing_edge_chordwise, own.trailing_edge_stretch, own.trailing_edge_growth, {}}},
+                      own.refinement, patches);
 }
 
 }  // namespace sterna::surfmesh

@@ -227,11 +227,11 @@ void check_options(const SurfaceMeshOptions& options) {
 
 }  // namespace
 
-SurfaceMesh mesh_model(const Model& model, const SurfaceMeshOptions& options, std::span<const PatchSurfaceOptions> patches, const RunContext& context) {
+SurfaceMesh mesh_model(const Model& model, const SurfaceMeshOptions& options, std::span<const Rule> patches, const RunContext& context) {
   return mesh_model(model, options, patches, SpaceSizes{}, context);
 }
 
-SurfaceMesh mesh_model(const Model& model, const SurfaceMeshOptions& options, std::span<const PatchSurfaceOptions> patches, const SpaceSizes& requested,
+SurfaceMesh mesh_model(const Model& model, const SurfaceMeshOptions& options, std::span<const Rule> patches, const SpaceSizes& requested,
                        const RunContext& context) {
   check_options(options);
   Meshing meshing{sized_model(model, options, patches, requested, context), {}, {}, {}, {}, {}, {}, {}};

@@ -151,8 +151,8 @@ void explain(const SizedModel& all, const FaceSum& sum, FaceForecast& forecast) 
 
 }  // namespace
 
-SurfaceForecast forecast_surface(const Model& model, const SurfaceMeshOptions& options, std::span<const PatchSurfaceOptions> patches,
-                                 const SpaceSizes& requested, const RunContext& context) {
+SurfaceForecast forecast_surface(const Model& model, const SurfaceMeshOptions& options, std::span<const Rule> patches, const SpaceSizes& requested,
+                                 const RunContext& context) {
   SizedModel all = sized_model(model, options, patches, requested, context);
   std::vector<FaceSum> sums(model.faces.size());
   double rough = 0.0;

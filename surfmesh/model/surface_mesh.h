@@ -10,8 +10,8 @@
 #include <vector>
 
 #include "geom/base/joined.h"
+#include "geom/base/rules.h"
 #include "geom/base/run_context.h"
-#include "geom/base/schema.h"
 #include "geom/mesh/tri_mesh.h"
 #include "geom/model/deform.h"
 #include "geom/model/model.h"
@@ -44,24 +44,6 @@ struct SurfaceMeshOptions {
   double trailing_edge_growth = 1.2;
   double trailing_edge_cells = k_automatic;
   std::string periodic = {};
-};
-
-/// Options for the faces (patches) whose names match. NaN: the options for all faces apply.
-struct PatchSurfaceOptions {
-  std::string names;                            ///< pattern for names, such as "wing*"; "*" matches any characters, "?" any single one
-  double max_edge = k_automatic;                ///< m
-  double min_edge = k_automatic;                ///< m
-  double curvature_angle = k_automatic;         ///< rad
-  double chord_error = k_automatic;             ///< m
-  double leading_edge_chordwise = k_automatic;  ///< m
-  double leading_edge_stretch = k_automatic;
-  double leading_edge_growth = k_automatic;
-  double trailing_edge_chordwise = k_automatic;  ///< m
-  double trailing_edge_stretch = k_automatic;
-  double trailing_edge_growth = k_automatic;
-  double trailing_edge_cells = k_automatic;
-  double leading_edge_factor = k_automatic;
-  double trailing_edge_factor = k_automatic;
 };
 
 /// Target edge lengths in space, independent of faces. They are also divided by `refinement`.
@@ -173,8 +155,8 @@ struct SurfaceMesh {
 /// matches no face's name, or sides of `periodic` that are not images of each other; Error(overflow) for more than max_triangles, before meshing if sizes and
 /// areas predict it; Error(non_manifold_surface) if triangles of faces do not join; Error(self_intersection) for crossing triangles that refinement does not
 /// separate, unless options.crossings allows them
-SurfaceMesh mesh_model(const Model& model, const SurfaceMeshOptions& options, std::span<const PatchSurfaceOptions> patches, const RunContext& context);
-SurfaceMesh mesh_model(const Model& model, const SurfaceMeshOptions& options, std::span<const PatchSurfaceOptions> patches, const SpaceSizes& requested,
+SurfaceMesh mesh_model(const Model& model, const SurfaceMeshOptions& options, std::span<const Rule> patches, const RunContext& context);
+SurfaceMesh mesh_model(const Model& model, const SurfaceMeshOptions& options, std::span<const Rule> patches, const SpaceSizes& requested,
                        const RunContext& context);
 
 /// Returns several human-readable lines.

@@ -226,7 +226,7 @@ void let_rows_go_on(const Reference& r, std::vector<LineRows>& lines) {
 
 }  // namespace
 
-RowLines find_row_lines(const Reference& r, const SurfaceLimitTable& limits_of, const RemeshOptions& options, std::span<const PatchSurfaceOptions> patches) {
+RowLines find_row_lines(const Reference& r, const SurfaceLimitTable& limits_of, const RemeshOptions& options, std::span<const Rule> patches) {
   RowLines found;
   std::vector<BandTargets> targets;
   for (const Patch& patch : r.mesh->patches) targets.push_back(band_targets(patch.name, options, patches));

@@ -41,15 +41,15 @@ std::vector<double> automatic_edges(const TriMesh& wall, const Components& piece
   return edges;
 }
 
-void require_rules(const TriMesh& wall, std::span<const PatchSurfaceOptions> rules) {
+void require_rules(const TriMesh& wall, std::span<const Rule> rules) {
   constexpr std::string_view k_attempted = "remeshing a surface";
   std::vector<std::string> names;
   for (const Patch& patch : wall.patches) names.push_back(patch.name);
-  for (const PatchSurfaceOptions& rule : rules) {
+  for (const Rule& rule : rules) {
     if (std::none_of(names.begin(), names.end(), [&](const std::string& name) { return matches_glob(name, rule.names); }))
       throw_bad_argument(k_attempted, "no patch has a name like \"" + rule.names + "\"", {}, names_hint(names, rule.names));
-    for (const double value : {rule.trailing_edge_cells, rule.leading_edge_factor, rule.trailing_edge_factor})
-      if (!is_automatic(value))
+    for (const char* option : {"trailing_edge_cells", "leading_edge_factor", "trailing_edge_factor"})
+      if (is_set(rule, option))
         throw_bad_argument(
             k_attempted,
             "the rule for \"" + rule.names + "\" sets trailing_edge_cells or factors at leading or trailing edges, which do not apply to a triangulation", {},
@@ -57,13 +57,9 @@ void require_rules(const TriMesh& wall, std::span<const PatchSurfaceOptions> rul
   }
 }
 
-SurfaceLimits limits_of(const std::string& name, double automatic_edge, const RemeshOptions& options, std::span<const PatchSurfaceOptions> rules) {
-  SurfaceLimits l{or_else(options.max_edge, automatic_edge), options.min_edge, options.curvature_angle, options.chord_error};
-  for (const PatchSurfaceOptions& rule : rules) {
-    if (!matches_glob(name, rule.names)) continue;
-    l = {or_else(rule.max_edge, l.max_edge), or_else(rule.min_edge, l.min_edge), or_else(rule.curvature_angle, l.curvature_angle),
-         or_else(rule.chord_error, l.chord_error)};
-  }
+SurfaceLimits limits_of(const std::string& name, double automatic_edge, const RemeshOptions& options, std::span<const Rule> rules) {
+  const RemeshOptions own = resolve(options, rules, name);
+  SurfaceLimits l{or_else(own.max_edge, automatic_edge), own.min_edge, own.curvature_angle, own.chord_error};
   l.min_edge = std::min(or_else(l.min_edge, k_min_edge_of_max * l.max_edge), l.max_edge);
   for (double* length : {&l.max_edge, &l.min_edge, &l.curvature_angle, &l.chord_error}) *length /= options.refinement;
   return l;
@@ -109,14 +105,13 @@ void check_options(const RemeshOptions& o) {
 
 }  // namespace
 
-double least_edge(const TriMesh& wall, const RemeshOptions& options, std::span<const PatchSurfaceOptions> patches, const RunContext& context) {
+double least_edge(const TriMesh& wall, const RemeshOptions& options, std::span<const Rule> patches, const RunContext& context) {
   check_options(options);
   require_rules(wall, patches);
   return SurfaceLimitTable(wall, Topology(wall, context), options, patches).least();
 }
 
-SurfaceLimitTable::SurfaceLimitTable(Borrowed<const TriMesh> wall, const Topology& topology, const RemeshOptions& options,
-                                     std::span<const PatchSurfaceOptions> rules)
+SurfaceLimitTable::SurfaceLimitTable(Borrowed<const TriMesh> wall, const Topology& topology, const RemeshOptions& options, std::span<const Rule> rules)
     : wall_(wall), pieces_(connected_components(wall, topology)) {
   for (const double edge : automatic_edges(wall, pieces_)) {
     limits_.emplace_back();
@@ -131,8 +126,8 @@ double SurfaceLimitTable::least() const {
   return least;
 }
 
-RemeshSizes::RemeshSizes(Borrowed<const Reference> reference, const RemeshOptions& options, std::span<const PatchSurfaceOptions> patches,
-                         const SpaceSizes& requested, const RunContext& context)
+RemeshSizes::RemeshSizes(Borrowed<const Reference> reference, const RemeshOptions& options, std::span<const Rule> patches, const SpaceSizes& requested,
+                         const RunContext& context)
     : r_(reference),
       options_(options),
       patches_(patches.begin(), patches.end()),

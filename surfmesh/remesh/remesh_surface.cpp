@@ -253,12 +253,12 @@ void require_likeness(const RemeshReport& report, const RemeshDemand& demand) {
   throw Error(std::move(info));
 }
 
-RemeshResult remesh_surface(const TriMesh& wall, const RemeshOptions& options, std::span<const PatchSurfaceOptions> patches, const SpaceSizes& requested,
+RemeshResult remesh_surface(const TriMesh& wall, const RemeshOptions& options, std::span<const Rule> patches, const SpaceSizes& requested,
                             const RunContext& context) {
   return remesh_surface(wall, options, patches, requested, RemeshDemand{}, context);
 }
 
-RemeshResult remesh_surface(const TriMesh& given, const RemeshOptions& options, std::span<const PatchSurfaceOptions> patches, const SpaceSizes& requested,
+RemeshResult remesh_surface(const TriMesh& given, const RemeshOptions& options, std::span<const Rule> patches, const SpaceSizes& requested,
                             const RemeshDemand& demand, const RunContext& context) {
   const StageTimer timer(context, "remesh");
   require_clear(given, context);

@@ -103,7 +103,7 @@ struct RemeshResult {
 /// \throws Error(bad_argument) for sizes that are not positive, a rule that matches no patch or sets trailing_edge_cells or factors;
 /// Error(non_manifold_surface); Error(self_intersection) if the input crosses itself or most of the result does; Error(overflow) for more than max_triangles,
 /// before the work; Error(cancelled)
-RemeshResult remesh_surface(const TriMesh& wall, const RemeshOptions& options, std::span<const PatchSurfaceOptions> patches, const SpaceSizes& requested,
+RemeshResult remesh_surface(const TriMesh& wall, const RemeshOptions& options, std::span<const Rule> patches, const SpaceSizes& requested,
                             const RunContext& context);
 
 /// Returns several human-readable lines.

@@ -37,7 +37,8 @@ namespace {
 constexpr std::size_t k_named_patches = 3;  ///< largest number of patches of a cavity that a message names
 
 bool opens_ridges(const MeshCase& options) {
-  return options.ridges.is_on() || std::ranges::any_of(options.patches, [](const PatchRule& rule) { return rule.open_ridges == "always"; });
+  return options.ridges.is_on() ||
+         std::ranges::any_of(options.patches, [](const Rule& rule) { return value_or(rule, "open_ridges", std::string()) == "always"; });
 }
 
 /// Checks that wake sheets are not combined with incompatible options.
@@ -51,9 +52,9 @@ void require_no_others(const MeshCase& options) {
 
 /// Checks the rules for exactly these patches. A rule for "*" is ignored, because it is meant for other patches.
 void require_no_layers_on_periodic_sides(const MeshCase& options) {
-  for (const PatchRule& rule : options.patches)
+  for (const Rule& rule : options.patches)
     for (const PeriodicNames& pair : options.periodic)
-      if ((rule.names == pair.first || rule.names == pair.second) && (rule.layers > 0 || rule.kind == "wall"))
+      if ((rule.names == pair.first || rule.names == pair.second) && (value_or(rule, "layers", 0) > 0 || value_or(rule, "kind", std::string()) == "wall"))
         throw_bad_argument("making \"" + pair.first + "\" and \"" + pair.second + "\" periodic",
                            "patches requests kind wall or layers on \"" + rule.names + "\"", {},
                            "periodic sides carry no layers: leave out the rule or the periodic pair");
@@ -96,8 +97,8 @@ namespace {
 /// Returns the smallest first height of all walls in metres.
 double least_first_height(const MeshCase& options) {
   double least = options.envelope.first_height;
-  for (const PatchRule& rule : options.patches)
-    if (!is_automatic(rule.first_height)) least = is_automatic(least) ? rule.first_height : std::min(least, rule.first_height);
+  for (const Rule& rule : options.patches)
+    if (const double own = value_or(rule, "first_height", k_automatic); !is_automatic(own)) least = is_automatic(least) ? own : std::min(least, own);
   return least;
 }
 
@@ -107,8 +108,8 @@ double least_first_height(const MeshCase& options) {
 void continue_beyond_open_borders(const TriMesh& boundary, const MeshCase& options, const RunContext& context, Column<PatchId, std::uint8_t>& has_layer) {
   for (const PatchId p : flow_patches_beyond_open_borders(boundary, has_layer, context)) {
     const Patch& patch = boundary.patches[p];
-    const PatchLayers requested = request_of({patch.name, PatchKind::wall}, options.envelope, options.patches);
-    if (!requested.carries_layers() || (is_automatic(requested.first_height) && !options.first_heights)) continue;
+    const EnvelopeOptions requested = request_of({patch.name, PatchKind::wall}, options.envelope, options.patches);
+    if (!carries_layers(requested) || (is_automatic(requested.first_height) && !options.first_heights)) continue;
     has_layer[p] = 1;
     context.info("the layer of the walls continues over the " + std::string(to_string(patch.kind)) + " patch \"" + patch.name +
                  "\", which begins at an outer edge of a wall, where no layer can end; patches = { [\"" + patch.name +
@@ -117,13 +118,13 @@ void continue_beyond_open_borders(const TriMesh& boundary, const MeshCase& optio
 }
 
 Column<PatchId, std::uint8_t> patches_with_layers(const TriMesh& boundary, const MeshCase& options, const RunContext& context) {
-  const Column<PatchId, PatchLayers> layers = layers_of_patches(boundary.patches, options.envelope, options.patches);
+  const Column<PatchId, EnvelopeOptions> layers = layers_of_patches(boundary.patches, options.envelope, options.patches);
   Column<PatchId, std::uint8_t> has_layer(boundary.patches.size(), 0);
   // Files of triangles contain no patch kinds, so all their patches are walls, except periodic sides.
   const auto is_periodic = [&](const std::string& name) {
     return std::ranges::any_of(options.periodic, [&](const PeriodicNames& pair) { return pair.first == name || pair.second == name; });
   };
-  for (const PatchId p : layers.ids()) has_layer[p] = layers[p].carries_layers() && !is_periodic(boundary.patches[p].name) ? 1 : 0;
+  for (const PatchId p : layers.ids()) has_layer[p] = carries_layers(layers[p]) && !is_periodic(boundary.patches[p].name) ? 1 : 0;
   continue_beyond_open_borders(boundary, options, context, has_layer);
   return has_layer;
 }
@@ -186,8 +187,8 @@ Domain make_domain(const TriMesh& surface, const MeshCase& options, const RunCon
                    const EndOptions* given_options) {
   const StageTimer timer(context, "domain");
   TriMesh given = surface;
-  std::vector<PatchRule> of_given;  // rules for patches of the user; the other rules are for added patches
-  std::ranges::copy_if(options.patches, std::back_inserter(of_given), [&](const PatchRule& rule) {
+  std::vector<Rule> of_given;  // rules for patches of the user; the other rules are for added patches
+  std::ranges::copy_if(options.patches, std::back_inserter(of_given), [&](const Rule& rule) {
     return std::ranges::any_of(given.patches, [&](const Patch& patch) { return matches_glob(patch.name, rule.names); });
   });
   apply_patch_kinds(given, of_given);
@@ -245,8 +246,8 @@ Domain make_domain(const TriMesh& surface, const MeshCase& options, const RunCon
   }
   if (!domain.wall_discs.empty() && opens_ridges(options)) context.warn("ridges stay closed: an actuator disc ends on the wall");
   else
-    open_ridges(options.ridges, patches_with_open_ridges(domain.wall.patches, options.ridges.is_on(), options.patches), least_first_height(options), closed,
-                domain, context);
+    open_ridges(options.ridges, patches_with_open_ridges(domain.wall.patches, options.ridges, options.patches), least_first_height(options), closed, domain,
+                context);
   return domain;
 }
 
@@ -264,7 +265,7 @@ LayerBase base_of(const Domain& domain, const MeshCase& options, const RunContex
   for (const DoubledSheets::BaseVertex& base_vertex : domain.sheets.base_vertices)
     if (!base_vertex.is_on_base) base.level.push_back(base_vertex.sides);
   base.demand = demand_of(base, options.envelope, options.patches, options.first_heights.get(), context);
-  base.truncation = truncation_by_patches(domain.wall, truncation_of(options.prisms.truncate), options.patches);
+  base.truncation = truncation_by_patches(domain.wall, options.prisms, options.patches);
   grow_sheet_heights(domain.sheets, options.envelope, base);
   return base;
 }

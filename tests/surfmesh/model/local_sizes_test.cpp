@@ -142,7 +142,7 @@ TEST(LocalSizes, WingsAreFinerAtTheirEdgesAndTips) {
     EXPECT_LT(mean_edge(leading, strip(0.3, 0.4)), 0.75 * behind_nose);
     EXPECT_GT(mean_edge(leading, strip(1.8, 1.9)), 0.8 * plain);
     // Rules for patches override the general options.
-    const std::vector<PatchSurfaceOptions> rules = {{.names = "W*", .leading_edge_factor = 1.0}};
+    const std::vector<Rule> rules = {{.names = "W*", .options = {{"leading_edge_factor", 1.0}}}};
     EXPECT_NEAR(mean_edge(mesh_model(model, options, rules, k_context), strip(0.3, 0.4)), behind_nose, 0.02 * behind_nose);
     options.leading_edge_factor = 1.0;
     options.tip_strips = true;

@@ -132,7 +132,7 @@ TEST(MeshModel, PatchesHaveSizesOfTheirOwnThatGrow) {
   const Model model = make_test_section({.length = 4.0, .width = 2.0, .height = 2.0});
   SurfaceMeshOptions options = edges_of(0.4);
   const SurfaceMesh coarse = mesh_model(model, options, {}, k_context);
-  const std::vector<PatchSurfaceOptions> rules = {{.names = "in*", .max_edge = 0.05}};
+  const std::vector<Rule> rules = {{.names = "in*", .options = {{"max_edge", 0.05}}}};
   const SurfaceMesh fine = mesh_model(model, options, rules, k_context);
   expect_sound(model, fine);
   EXPECT_GT(fine.mesh.n_triangles(), 4 * coarse.mesh.n_triangles());
@@ -143,7 +143,7 @@ TEST(MeshModel, PatchesHaveSizesOfTheirOwnThatGrow) {
     } else if (face.name == "outflow") {
       EXPECT_LT(face.n_triangles, 150);
     }
-  const std::vector<PatchSurfaceOptions> wrong = {{.names = "wing*", .max_edge = 0.05}};
+  const std::vector<Rule> wrong = {{.names = "wing*", .options = {{"max_edge", 0.05}}}};
   try {
     mesh_model(model, options, wrong, k_context);
     FAIL() << "no error";

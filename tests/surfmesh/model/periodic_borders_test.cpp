@@ -140,7 +140,7 @@ TEST(PeriodicBorders, BandsAndStripsEndAtThem) {
 
 TEST(PeriodicBorders, WhatOneSideAsksForTheOtherGets) {
   const Model model = through_duct({bar()});
-  const std::array<PatchSurfaceOptions, 1> rules = {PatchSurfaceOptions{.names = "tunnel_left", .max_edge = 0.05}};
+  const std::array<Rule, 1> rules = {Rule{.names = "tunnel_left", .options = {{"max_edge", 0.05}}}};
   const SurfaceMesh mesh = mesh_model(model, alike(0.2), rules, k_context);
   expect_closed(mesh.mesh);
   expect_images(mesh.mesh, "tunnel_left", "tunnel_right", {0, 1, 0}, 200);

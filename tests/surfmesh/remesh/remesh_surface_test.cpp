@@ -27,7 +27,7 @@ namespace {
 using test::k_context;
 using test::k_degree;
 
-RemeshResult remeshed(const TriMesh& wall, const RemeshOptions& options = {}, std::vector<PatchSurfaceOptions> patches = {}, const SpaceSizes& requested = {}) {
+RemeshResult remeshed(const TriMesh& wall, const RemeshOptions& options = {}, std::vector<Rule> patches = {}, const SpaceSizes& requested = {}) {
   return remesh_surface(wall, options, patches, requested, k_context);
 }
 
@@ -215,7 +215,7 @@ TEST(RemeshSurface, RowsAtNoses) {
   }
   expect_first_row(remeshed(strip_wing(60), {.leading_edge_chordwise = 0.002}).mesh, 0.0, 0.002);
   // Set by a patch's rule, and applied only there.
-  const RemeshResult by_rule = remeshed(strip_wing(24), {}, {{.names = "wing", .leading_edge_chordwise = 0.002}});
+  const RemeshResult by_rule = remeshed(strip_wing(24), {}, {{.names = "wing", .options = {{"leading_edge_chordwise", 0.002}}}});
   EXPECT_GT(by_rule.report.rows.n_columns, 200);
 }
 
@@ -245,7 +245,7 @@ TEST(RemeshSurface, SizesOfPatchesSourcesAndRefinement) {
   }
   const auto n_of = [](const TriMesh& mesh, PatchId patch) { return std::count(mesh.triangle_patch.begin(), mesh.triangle_patch.end(), patch); };
   const RemeshResult plain = remeshed(wall, {.max_edge = 0.1});
-  const RemeshResult ruled = remeshed(wall, {.max_edge = 0.1}, {{.names = "l*", .max_edge = 0.05}});
+  const RemeshResult ruled = remeshed(wall, {.max_edge = 0.1}, {{.names = "l*", .options = {{"max_edge", 0.05}}}});
   expect_sound(wall, ruled.mesh);
   EXPECT_GT(n_of(ruled.mesh, PatchId(1)), 3 * n_of(plain.mesh, PatchId(1)));
   SpaceSizes requested;
@@ -386,8 +386,10 @@ TEST(RemeshSurface, EndlessHalvingIsErrorWithLocation) {
 
 TEST(RemeshSurface, Refusals) {
   const TriMesh wall = test::cube(2);
-  test::expect_error(ErrorCode::bad_argument, "none", [&] { remeshed(wall, {}, {{.names = "none", .max_edge = 0.1}}); });
-  test::expect_error(ErrorCode::bad_argument, "trailing_edge_cells", [&] { remeshed(wall, {}, {{.names = "cube", .trailing_edge_cells = 5.0}}); });
+  test::expect_error(ErrorCode::bad_argument, "none", [&] { remeshed(wall, {}, {{.names = "none", .options = {{"max_edge", 0.1}}}}); });
+  test::expect_error(ErrorCode::bad_argument, "trailing_edge_cells", [&] {
+    remeshed(wall, {}, {{.names = "cube", .options = {{"trailing_edge_cells", 5.0}}}});
+  });
   test::expect_error(ErrorCode::overflow, "max_triangles", [&] { remeshed(wall, {.max_edge = 0.01, .max_triangles = 1000}); });
   test::expect_error(ErrorCode::bad_argument, "positive", [&] { remeshed(wall, {.max_edge = -1.0}); });
   test::expect_error(ErrorCode::empty_surface, "no triangles", [&] { remeshed(TriMesh{}); });

@@ -87,7 +87,7 @@ TEST(BarePlanes, WallsWithoutLayersBesideOthers) {
   other.triangle_patch.assign(other.n_triangles(), PatchId(0));
   append(wall, other);
   MeshCase options = case_of(5);
-  options.patches = {{.names = "ball", .layers = 0}};
+  options.patches = {{.names = "ball", .options = {{"layers", 0}}}};
   const VolumeMeshResult result = volume_mesh(wall, options, RunContext({.threads = 2}));
   EXPECT_TRUE(result.check.is_valid()) << to_text(result.check);
   EXPECT_GT(count_cells(result.mesh).prisms, 0);
@@ -101,7 +101,7 @@ TEST(BarePlanes, GroundPlaneHasLayersAndOwnEdges) {
     options.farfield.farfield_to_x = options.farfield.farfield_to_y = options.farfield.farfield_to_z = 8.0;
     options.farfield.farfield_edge = 2.0;
     options.farfield.farfield_sides = "symmetry=wall,name:ground,edge:0.7";
-    if (n_layers == 0) options.patches = {{.names = "ground", .layers = 0}};
+    if (n_layers == 0) options.patches = {{.names = "ground", .options = {{"layers", 0}}}};
     const VolumeMeshResult result = meshed_half(options, nullptr, 2);
     const PatchEdges edges = edges_of(result.mesh, "ground");
     EXPECT_LT(edges.longest, 1.3) << n_layers;
