@@ -50,12 +50,39 @@ constexpr EnumMember<T> enum_member() {
   return {[](const T& object) { return static_cast<int>(object.*Pointer); }, [](T& object, int index) { object.*Pointer = static_cast<E>(index); }};
 }
 
+/// The value of an option. An enumeration is the name of its enumerator; std::monostate is an optional vector without a value.
+using OptionValue = std::variant<bool, std::int64_t, double, std::string, Vec3, std::vector<double>, std::vector<Vec3>, std::monostate>;
+enum class OptionKind { boolean, integer, number, string, vector, numbers, vectors };
+
+/// Access to an option that is not stored as its users give it, such as a list that users write as a string.
+template <class T>
+struct OptionAccess {
+  OptionKind kind;
+  OptionValue (*get)(const T&);
+  void (*set)(T&, const OptionValue&);
+};
+
+namespace detail {
+
+template <class T, class M>
+T class_of(M T::*);
+
+}  // namespace detail
+
+/// Describes the member `Pointer`, which users give as a string. Parse returns its value, or throws Error(bad_argument); Print returns the string.
+template <auto Pointer, auto Parse, auto Print>
+constexpr auto text_option() {
+  using T = decltype(detail::class_of(Pointer));
+  return OptionAccess<T>{OptionKind::string, [](const T& object) { return OptionValue(Print(object.*Pointer)); },
+                         [](T& object, const OptionValue& text) { object.*Pointer = Parse(std::get<std::string>(text)); }};
+}
+
 /// One member of an options struct.
 template <class T>
 struct Field {
   std::string_view name;
   std::variant<bool T::*, int T::*, double T::*, std::string T::*, Vec3 T::*, std::optional<Vec3> T::*, std::vector<double> T::*, std::vector<Vec3> T::*,
-               EnumMember<T>>
+               EnumMember<T>, OptionAccess<T>>
       member;
   Unit unit = Unit::none;
   double min = -k_unbounded;  ///< smallest valid value
@@ -74,10 +101,6 @@ struct Field {
 ///   };
 template <class T>
 struct Schema;
-
-/// The value of an option. An enumeration is the name of its enumerator; std::monostate is an optional vector without a value.
-using OptionValue = std::variant<bool, std::int64_t, double, std::string, Vec3, std::vector<double>, std::vector<Vec3>, std::monostate>;
-enum class OptionKind { boolean, integer, number, string, vector, numbers, vectors };
 
 /// Returns "a whole number", "{x, y, z}" and so on, for messages.
 std::string_view kind_text(OptionKind kind);
@@ -150,9 +173,10 @@ void store_value(M& member, const OptionValue& value) {
 template <class T>
 OptionKind kind_of_field(const Field<T>& field) {
   return std::visit(
-      []<class Member>(const Member&) {
+      []<class Member>(const Member& member) {
         if constexpr (std::is_same_v<Member, EnumMember<T>>) return OptionKind::string;
-        else return detail::kind_of_member<std::remove_reference_t<decltype(std::declval<T&>().*std::declval<Member>())>>();
+        else if constexpr (std::is_same_v<Member, OptionAccess<T>>) return member.kind;
+        else return detail::kind_of_member<std::remove_reference_t<decltype(std::declval<T&>().*member)>>();
       },
       field.member);
 }
@@ -163,6 +187,7 @@ OptionValue value_of_member(const T& object, const Field<T>& field) {
   return std::visit(
       [&]<class Member>(const Member& member) -> OptionValue {
         if constexpr (std::is_same_v<Member, EnumMember<T>>) return std::string(detail::choice_at(field.choices, member.get(object)));
+        else if constexpr (std::is_same_v<Member, OptionAccess<T>>) return member.get(object);
         else return detail::option_value_of(object.*member);
       },
       field.member);
@@ -174,6 +199,7 @@ void store_member(T& object, const Field<T>& field, const OptionValue& value) {
   std::visit(
       [&]<class Member>(const Member& member) {
         if constexpr (std::is_same_v<Member, EnumMember<T>>) member.set(object, detail::index_of_choice(field.choices, std::get<std::string>(value)));
+        else if constexpr (std::is_same_v<Member, OptionAccess<T>>) member.set(object, value);
         else detail::store_value(object.*member, value);
       },
       field.member);

@@ -112,16 +112,14 @@ std::vector<Rule> present(std::vector<Rule> rules, const Model& model) {
   return rules;
 }
 
-void add_periodic_faces(const std::vector<ModelHandle>& models, std::span<const volmesh::PeriodicNames> periodic, SurfaceRecipe& recipe) {
+void add_periodic_faces(const std::vector<ModelHandle>& models, std::span<const PeriodicNames> periodic, SurfaceRecipe& recipe) {
   const auto is_face = [&](const std::string& name) {
     if (surfmesh::is_open_plane(name)) return std::ranges::any_of(models, [](const ModelHandle& model) { return !free_edges(model->model).empty(); });
     return std::ranges::any_of(
         models, [&](const ModelHandle& model) { return std::ranges::any_of(model->model.faces, [&](const ModelFace& face) { return face.name == name; }); });
   };
-  std::vector<volmesh::PeriodicNames> pairs = periodic_of_surface(recipe.options.periodic);
-  for (const volmesh::PeriodicNames& pair : periodic)
-    if (is_face(pair.first) && is_face(pair.second)) pairs.push_back(pair);
-  recipe.options.periodic = periodic_text(pairs);
+  for (const PeriodicNames& pair : periodic)
+    if (is_face(pair.first) && is_face(pair.second)) recipe.options.periodic.push_back(pair);
 }
 
 std::string indented(std::string text) {
@@ -277,7 +275,7 @@ SurfaceValue mesh_models(const std::vector<ModelHandle>& models, const SurfaceRe
 }
 
 ModelsOfFiles read_model_files(std::span<const InputPath> files, const ReadCadOptions& reading, const SurfaceRecipe& recipe, const RunContext& context,
-                               std::span<const volmesh::PeriodicNames> periodic) {
+                               std::span<const PeriodicNames> periodic) {
   for (const InputPath& file : files)
     if (!is_model_file(file.path))
       throw Error({.code = ErrorCode::bad_argument,
@@ -308,7 +306,7 @@ SurfaceValue mesh_model_files(const ModelsOfFiles& files, const RunContext& cont
 }
 
 SurfaceValue mesh_model_files(std::span<const InputPath> files, const ReadCadOptions& reading, const SurfaceRecipe& recipe, const RunContext& context,
-                              const Reuse& reuse, std::span<const volmesh::PeriodicNames> periodic) {
+                              const Reuse& reuse, std::span<const PeriodicNames> periodic) {
   return mesh_model_files(read_model_files(files, reading, recipe, context, periodic), context, reuse);
 }
 

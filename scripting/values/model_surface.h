@@ -29,7 +29,7 @@ SurfaceValue mesh_models(const std::vector<ModelHandle>& models, const SurfaceRe
 /// \p periodic: pairs of sides of the volume; pairs of faces of the models go into the recipe
 /// \throws Error of read_model, unite_solids, mesh_models; bad_argument for a file that is no model
 SurfaceValue mesh_model_files(std::span<const InputPath> files, const ReadCadOptions& reading, const SurfaceRecipe& recipe, const RunContext& context,
-                              const Reuse& reuse = {}, std::span<const volmesh::PeriodicNames> periodic = {});
+                              const Reuse& reuse = {}, std::span<const PeriodicNames> periodic = {});
 
 /// Models as read from files, before their surface is meshed.
 struct ModelsOfFiles {
@@ -38,7 +38,7 @@ struct ModelsOfFiles {
 };
 /// Reads the models: the first half of mesh_model_files().
 ModelsOfFiles read_model_files(std::span<const InputPath> files, const ReadCadOptions& reading, const SurfaceRecipe& recipe, const RunContext& context,
-                               std::span<const volmesh::PeriodicNames> periodic = {});
+                               std::span<const PeriodicNames> periodic = {});
 /// Meshes the models: the second half of mesh_model_files().
 SurfaceValue mesh_model_files(const ModelsOfFiles& files, const RunContext& context, const Reuse& reuse = {});
 

@@ -236,9 +236,9 @@ class StageJson {
     return found == json_.end() ? std::vector<volmesh::WakeSheet>() : values_of_json<volmesh::WakeSheet>(found->dump());
   }
 
-  std::vector<volmesh::PeriodicNames> periodic() const {
+  std::vector<PeriodicNames> periodic() const {
     const auto found = json_.find("periodic");
-    return found == json_.end() ? std::vector<volmesh::PeriodicNames>() : periodic_of_json(found->dump());
+    return found == json_.end() ? std::vector<PeriodicNames>() : periodic_of_json(found->dump());
   }
 
   /// Returns the report on slivers; empty for files of versions that did not detect slivers.
@@ -412,13 +412,13 @@ OptionTable finish_options(volmesh::MeshCase& options) { return volmesh::options
 namespace {
 
 /// Returns the periodic sides that the mesher of the wall meshed identically, if the wall still has its triangles.
-std::vector<volmesh::PeriodicNames> periodic_of_wall(const SurfaceValue& wall) {
+std::vector<PeriodicNames> periodic_of_wall(const SurfaceValue& wall) {
   if (!wall.recipe || wall.remesh_options || wall.repair_options || wall.wrap_options || wall.union_options) return {};
-  std::vector<volmesh::PeriodicNames> pairs = periodic_of_surface(wall.recipe->options.periodic);
+  std::vector<PeriodicNames> pairs = wall.recipe->options.periodic;
   const auto has = [&](const std::string& name) {
     return surfmesh::is_open_plane(name) || std::ranges::any_of(wall.mesh.patches, [&](const Patch& patch) { return patch.name == name; });
   };
-  std::erase_if(pairs, [&](const volmesh::PeriodicNames& pair) { return !has(pair.first) || !has(pair.second); });
+  std::erase_if(pairs, [&](const PeriodicNames& pair) { return !has(pair.first) || !has(pair.second); });
   return pairs;
 }
 

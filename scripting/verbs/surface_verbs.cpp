@@ -74,7 +74,7 @@ ScriptValue make_surface_mesh(const ScriptCall& call) {
   SurfaceRules rules = read_rules(reader);
   recipe.patches = std::move(rules.sizes);
   recipe.sources = read_sources(reader, call);
-  recipe.options.periodic = periodic_text(read_periodic(reader));
+  recipe.options.periodic = read_periodic(reader);
   const std::function<double(const Point&)> size = read_size_function(reader);
   apply_overrides(call, sterna::options_of(recipe.options));
   reader.finish();

@@ -237,8 +237,7 @@ SurfaceMesh mesh_model(const Model& model, const SurfaceMeshOptions& options, st
   Meshing meshing{sized_model(model, options, patches, requested, context), {}, {}, {}, {}, {}, {}, {}};
   check_estimate(model, meshing.sizes, meshing.edges, options);
   meshing.topology = absorb_small_parts(model, meshing.edges, meshing.sizes, meshing.absorbed);
-  if (const std::vector<SidePair> pairs = side_pairs(options.periodic); !pairs.empty())
-    meshing.periodic_borders = find_periodic_borders(model, meshing.edges, pairs, meshing.topology);
+  if (!options.periodic.empty()) meshing.periodic_borders = find_periodic_borders(model, meshing.edges, options.periodic, meshing.topology);
   meshing.bands = find_wing_bands(model, meshing.edges, meshing.sizes, meshing.topology);
   check_band_estimate(model, meshing.bands, meshing.edges, options);
   meshing.sizes.is_covered = [&](FaceId f, const Point& p) { return meshing.bands.covers(meshing.edges, f, p); };

@@ -12,6 +12,7 @@
 #include "geom/base/joined.h"
 #include "geom/base/rules.h"
 #include "geom/base/run_context.h"
+#include "geom/mesh/periodic_names.h"
 #include "geom/mesh/tri_mesh.h"
 #include "geom/model/deform.h"
 #include "geom/model/model.h"
@@ -43,7 +44,7 @@ struct SurfaceMeshOptions {
   double trailing_edge_stretch = k_automatic;
   double trailing_edge_growth = 1.2;
   double trailing_edge_cells = k_automatic;
-  std::string periodic = {};
+  std::vector<PeriodicNames> periodic;
 };
 
 /// Target edge lengths in space, independent of faces. They are also divided by `refinement`.
@@ -308,7 +309,7 @@ struct Schema<surfmesh::SurfaceMeshOptions> {
   };
   static constexpr std::array side_fields = {
       Field<O>{.name = "periodic",
-               .member = &O::periodic,
+               .member = text_option<&O::periodic, side_pairs, side_pairs_text>(),
                .help = "pairs of flat faces that are translated images of each other: \"left,right; floor,ceiling\"; their borders are divided alike"},
   };
   static constexpr auto fields = joined(own_fields, surfmesh::edge_row_fields<O>(surfmesh::k_no_rows, surfmesh::k_no_row_stretch), side_fields);

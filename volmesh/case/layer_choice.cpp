@@ -46,9 +46,7 @@ void refine(double f, Rule& rule) {
 void refine(double f, FarfieldOptions& farfield) {
   if (is_automatic(farfield.farfield_edge)) farfield.farfield_edge = -1.0 / f;
   else farfield.farfield_edge /= f;
-  std::vector<SideRule> sides = parse_sides(farfield.farfield_sides);
-  for (SideRule& side : sides) refine(f, side.edge);
-  farfield.farfield_sides = sides_text(sides);
+  for (SideRule& side : farfield.farfield_sides) refine(f, side.edge);
 }
 
 }  // namespace

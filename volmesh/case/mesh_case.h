@@ -5,6 +5,7 @@
 #include <vector>
 
 #include "geom/base/rules.h"
+#include "geom/mesh/periodic_names.h"
 #include "geom/mesh/tri_mesh.h"
 #include "volmesh/case/actuator_disc.h"
 #include "volmesh/case/end_options.h"
@@ -14,7 +15,6 @@
 #include "volmesh/case/first_heights.h"
 #include "volmesh/case/improve_options.h"
 #include "volmesh/case/limit_options.h"
-#include "volmesh/case/periodic_names.h"
 #include "volmesh/case/placed_part.h"
 #include "volmesh/case/prism_options.h"
 #include "volmesh/case/ridge_options.h"

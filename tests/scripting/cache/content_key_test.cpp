@@ -22,6 +22,8 @@ void change(const Option& option) {
   if (const auto* flag = std::get_if<bool>(&value)) option.store(!*flag);
   else if (const auto* whole = std::get_if<std::int64_t>(&value)) option.store(*whole + 1);
   else if (const auto* number = std::get_if<double>(&value)) option.store(is_automatic(*number) ? 0.125 : std::nextafter(*number, 1e300));
+  else if (option.name == "farfield_sides") option.store("x_min=slip");
+  else if (option.name == "periodic") option.store("left,right");
   else option.store(std::get<std::string>(value) + "x");
 }
 

@@ -41,7 +41,7 @@ SurfaceMeshOptions alike(double max_edge, const std::string& pairs = "tunnel_lef
   SurfaceMeshOptions options = edges_of(max_edge);
   options.min_edge = 0.1 * max_edge;
   options.growth = 1.4;
-  options.periodic = pairs;
+  options.periodic = side_pairs(pairs);
   return options;
 }
 
@@ -88,7 +88,7 @@ PeriodicBorders borders_of(const Model& model, const SurfaceMeshOptions& options
   const ModelSizes sizes = sizes_of_faces(model, edges, options, {}, k_context);
   std::vector<AbsorbedPart> absorbed;
   ModelTopology topology = absorb_small_parts(model, edges, sizes, absorbed);
-  return find_periodic_borders(model, edges, side_pairs(options.periodic), topology);
+  return find_periodic_borders(model, edges, options.periodic, topology);
 }
 
 std::size_t n_stops(const PeriodicBorders& borders) {
@@ -221,8 +221,8 @@ TEST(PeriodicBorders, SidesThatAreNoImagesAreRefused) {
 
 TEST(PeriodicBorders, PairsAreReadAndWritten) {
   EXPECT_TRUE(side_pairs("").empty());
-  const std::vector<SidePair> pairs = side_pairs("left, right ;floor,ceiling");
-  EXPECT_EQ(pairs, (std::vector<SidePair>{{"left", "right"}, {"floor", "ceiling"}}));
+  const std::vector<PeriodicNames> pairs = side_pairs("left, right ;floor,ceiling");
+  EXPECT_EQ(pairs, (std::vector<PeriodicNames>{{"left", "right"}, {"floor", "ceiling"}}));
   EXPECT_EQ(side_pairs(side_pairs_text(pairs)), pairs);
   for (const char* wrong : {"left", ",right", "left,", "a,b,c", "a,b;c"}) EXPECT_THROW(side_pairs(wrong), Error) << wrong;
 }

@@ -59,7 +59,7 @@ TEST(Refined, FirstHeightGrowthAndLayersAreExact) {
   medium.envelope.layers = 30;
   medium.envelope.first_height = 1e-4;
   medium.envelope.max_growth = 1.3;
-  medium.farfield.farfield_sides = "x_min=inflow x_max=outflow,edge:0.5";
+  medium.farfield.farfield_sides = parse_sides("x_min=inflow x_max=outflow,edge:0.5");
   medium.patches = {{.names = "a", .options = {{"layers", 20}, {"first_height", 1e-3}, {"max_growth", 1.2}, {"total_height", 0.1}}}, {.names = "b"}};
   medium.size.size_max = 3.0;
   medium.sources = {{.size = 0.1}};
@@ -77,7 +77,7 @@ TEST(Refined, FirstHeightGrowthAndLayersAreExact) {
   EXPECT_DOUBLE_EQ(fine.size.size_growth, 1.0 + 0.3 / 1.5);
   EXPECT_DOUBLE_EQ(fine.sources[0].size, 0.1 / 1.5);
   EXPECT_DOUBLE_EQ(fine.discs[0].edge, 0.1 / 1.5);
-  EXPECT_EQ(parse_sides(fine.farfield.farfield_sides)[1].edge, 0.5 / 1.5);
+  EXPECT_EQ(fine.farfield.farfield_sides[1].edge, 0.5 / 1.5);
   // The heights of every k-th cell boundary nearly coincide: both laws are samples of one exponential.
   EXPECT_NEAR(layer_height(1e-4 / 1.5, fine.envelope.max_growth, 45) / layer_height(1e-4, 1.3, 30), 1.0, 0.06);
 }

@@ -30,7 +30,7 @@ TriMesh surface_of(const Model& body, const std::string& pairs, const RunContext
   options.min_edge = 0.015;
   options.curvature_angle = 0.4;
   options.growth = 1.5;
-  options.periodic = pairs;
+  options.periodic = side_pairs(pairs);
   return surfmesh::mesh_model(row_of(body), options, rules, context).mesh;
 }
 
@@ -86,7 +86,7 @@ TEST(Row, WingEndingInTwoFarfieldPlanes) {
   options.min_edge = 0.015;
   options.curvature_angle = 0.4;
   options.growth = 1.5;
-  options.periodic = "symmetry_y_min,symmetry_y_max";
+  options.periodic = {{"symmetry_y_min", "symmetry_y_max"}};
   const TriMesh surface = surfmesh::mesh_model(model, options, {}, k_context).mesh;
   MeshCase given = layers(8, 1e-3);
   given.periodic = {{"symmetry_y_min", "symmetry_y_max"}};
