@@ -14,6 +14,7 @@
 #include "io/file/surface_file.h"
 #include "surfmesh/stitch/stitch_surface.h"
 #include "tests/support/data.h"
+#include "tests/support/error_of.h"
 #include "tests/support/test_constants.h"
 #include "tests/support/test_shapes.h"
 #include "volmesh/domain/farfield.h"
