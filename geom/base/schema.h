@@ -54,18 +54,48 @@ constexpr EnumMember<T> enum_member() {
 using OptionValue = std::variant<bool, std::int64_t, double, std::string, Vec3, std::vector<double>, std::vector<Vec3>, std::monostate>;
 enum class OptionKind { boolean, integer, number, string, vector, numbers, vectors };
 
-/// Access to an option that is not stored as its users give it, such as a list that users write as a string.
+/// Access to an option that is no plain member: a list that users write as a string, or a member of a struct inside T.
 template <class T>
 struct OptionAccess {
   OptionKind kind;
   OptionValue (*get)(const T&);
   void (*set)(T&, const OptionValue&);
+  std::size_t n_inner = 0;  ///< number of members of the struct inside T; 0: the option is a member of T
 };
 
 namespace detail {
 
 template <class T, class M>
 T class_of(M T::*);
+template <class T, class M>
+M type_of(M T::*);
+
+template <class M>
+constexpr OptionKind kind_of_member() {
+  if constexpr (std::is_same_v<M, bool>) return OptionKind::boolean;
+  else if constexpr (std::is_same_v<M, int>) return OptionKind::integer;
+  else if constexpr (std::is_same_v<M, double>) return OptionKind::number;
+  else if constexpr (std::is_same_v<M, std::string>) return OptionKind::string;
+  else if constexpr (std::is_same_v<M, std::vector<double>>) return OptionKind::numbers;
+  else if constexpr (std::is_same_v<M, std::vector<Vec3>>) return OptionKind::vectors;
+  else return OptionKind::vector;
+}
+
+template <class M>
+OptionValue option_value_of(const M& value) {
+  if constexpr (std::is_same_v<M, int>) return static_cast<std::int64_t>(value);
+  else if constexpr (std::is_same_v<M, std::optional<Vec3>>) return value ? OptionValue(*value) : OptionValue(std::monostate{});
+  else return value;
+}
+
+template <class M>
+void store_value(M& member, const OptionValue& value) {
+  const std::int64_t* whole = std::get_if<std::int64_t>(&value);
+  if constexpr (std::is_same_v<M, int>) member = static_cast<int>(std::get<std::int64_t>(value));
+  else if constexpr (std::is_same_v<M, double>) member = whole ? static_cast<double>(*whole) : std::get<double>(value);
+  else if constexpr (std::is_same_v<M, std::optional<Vec3>>) member = std::holds_alternative<Vec3>(value) ? std::optional(std::get<Vec3>(value)) : std::nullopt;
+  else member = std::get<M>(value);
+}
 
 }  // namespace detail
 
@@ -75,6 +105,16 @@ constexpr auto text_option() {
   using T = decltype(detail::class_of(Pointer));
   return OptionAccess<T>{OptionKind::string, [](const T& object) { return OptionValue(Print(object.*Pointer)); },
                          [](T& object, const OptionValue& text) { object.*Pointer = Parse(std::get<std::string>(text)); }};
+}
+
+/// Describes the member `Inner` of the struct that is the member `Outer`. T may have one such struct.
+template <auto Outer, auto Inner>
+constexpr auto inner_option() {
+  using T = decltype(detail::class_of(Outer));
+  using M = decltype(detail::type_of(Inner));
+  return OptionAccess<T>{detail::kind_of_member<M>(), [](const T& object) { return detail::option_value_of((object.*Outer).*Inner); },
+                         [](T& object, const OptionValue& value) { detail::store_value((object.*Outer).*Inner, value); },
+                         member_count<decltype(detail::type_of(Outer))>()};
 }
 
 /// One member of an options struct.
@@ -140,33 +180,6 @@ std::string_view choice_at(std::string_view choices, int index);
 /// Returns the index of a name in such a list; -1 if it is not there.
 int index_of_choice(std::string_view choices, std::string_view name);
 
-template <class M>
-constexpr OptionKind kind_of_member() {
-  if constexpr (std::is_same_v<M, bool>) return OptionKind::boolean;
-  else if constexpr (std::is_same_v<M, int>) return OptionKind::integer;
-  else if constexpr (std::is_same_v<M, double>) return OptionKind::number;
-  else if constexpr (std::is_same_v<M, std::string>) return OptionKind::string;
-  else if constexpr (std::is_same_v<M, std::vector<double>>) return OptionKind::numbers;
-  else if constexpr (std::is_same_v<M, std::vector<Vec3>>) return OptionKind::vectors;
-  else return OptionKind::vector;
-}
-
-template <class M>
-OptionValue option_value_of(const M& value) {
-  if constexpr (std::is_same_v<M, int>) return static_cast<std::int64_t>(value);
-  else if constexpr (std::is_same_v<M, std::optional<Vec3>>) return value ? OptionValue(*value) : OptionValue(std::monostate{});
-  else return value;
-}
-
-template <class M>
-void store_value(M& member, const OptionValue& value) {
-  const std::int64_t* whole = std::get_if<std::int64_t>(&value);
-  if constexpr (std::is_same_v<M, int>) member = static_cast<int>(std::get<std::int64_t>(value));
-  else if constexpr (std::is_same_v<M, double>) member = whole ? static_cast<double>(*whole) : std::get<double>(value);
-  else if constexpr (std::is_same_v<M, std::optional<Vec3>>) member = std::holds_alternative<Vec3>(value) ? std::optional(std::get<Vec3>(value)) : std::nullopt;
-  else member = std::get<M>(value);
-}
-
 }  // namespace detail
 
 /// Returns the kind of the option that a field describes.
@@ -205,10 +218,26 @@ void store_member(T& object, const Field<T>& field, const OptionValue& value) {
       field.member);
 }
 
+namespace detail {
+
+/// Returns the number of members that the Schema describes. The fields of a struct inside T count as one member if they describe all of its members.
+template <class T>
+constexpr std::size_t n_described() {
+  std::size_t n = 0, n_inner = 0, n_expected = 0;
+  for (const Field<T>& field : Schema<T>::fields) {
+    const auto* access = std::get_if<OptionAccess<T>>(&field.member);
+    if (!access || access->n_inner == 0) ++n;
+    else ++n_inner, n_expected = access->n_inner;
+  }
+  return n_inner == n_expected ? n + (n_inner > 0 ? 1 : 0) : 0;
+}
+
+}  // namespace detail
+
 /// Returns the options of `instance`, in schema order. `instance` must outlive the table.
 template <class T>
 OptionTable options_of(T& instance) {
-  static_assert(member_count<T>() == Schema<T>::fields.size(), "every member of the options struct needs one entry in its Schema");
+  static_assert(member_count<T>() == detail::n_described<T>(), "every member of the options struct needs one entry in its Schema");
   static const T defaults{};
   OptionTable table;
   for (const Field<T>& field : Schema<T>::fields) {

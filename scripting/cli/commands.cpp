@@ -217,7 +217,7 @@ void remesh_wall(const MeshCommand& command, const volmesh::MeshCase& volume, Su
     return;
   }
   RemeshRecipe recipe;
-  if (is_given(command, "family", "refinement")) recipe.options.refinement = volume.family.refinement;
+  if (is_given(command, "family", "refinement")) recipe.options.sizes.refinement = volume.family.refinement;
   set_options(sterna::options_of(recipe.options), command.remesh, context);
   layer_rules_of(command.volume.patches, &recipe.patches);
   recipe.sources = sources_of(command.volume.sources);
@@ -289,7 +289,7 @@ MeshValue fill(const MeshCommand& command, SurfaceValue wall, const volmesh::Mes
   if (command.is_auto && options.farfield.farfield_floor.empty()) wall = as_body(wall, options.farfield.farfield_shape != "none", part);
   if (!command.is_auto || command.is_remeshed) return make_volume_mesh(wall, options, command.stages, part, reuse);
   RemeshRecipe recipe;
-  recipe.options.refinement = options.family.refinement;
+  recipe.options.sizes.refinement = options.family.refinement;
   recipe.sources = sources_of(command.volume.sources);
   set_options(sterna::options_of(recipe.options), command.remesh, context);
   const std::size_t n_changes = wall.changes.size();
@@ -332,7 +332,7 @@ MeshValue make_mesh_of_models(const MeshCommand& command, const std::vector<Inpu
     given.emplace_back("read_cad.time_limit", limit->second);  // one limit applies to reading, too
   set_options(table, given, context, elsewhere_of(command, true, unused));
   if (is_given(command, "family", "refinement") && !is_given(command, "surface_mesh", "refinement"))
-    recipe.options.refinement = volume_options.family.refinement;
+    recipe.options.sizes.refinement = volume_options.family.refinement;
   complete_options(volume_options, command, context.run);
   read_features(command.volume, volume_options);
   requested.periodic = volume_options.periodic;

@@ -116,7 +116,7 @@ int execute(const InspectCommand& command, const CommandContext& context) {
   choose_solve_for(
       request.volume, [&](std::string_view name) { return is_given(command, name); }, "reading the options");
   choose_family_wake(request.volume, is_given(command, "refinement"));
-  if (is_given(command, "refinement")) recipe.options.refinement = request.volume.family.refinement;  // as `sterna mesh`
+  if (is_given(command, "refinement")) recipe.options.sizes.refinement = request.volume.family.refinement;  // as `sterna mesh`
   if (!command.flow.empty()) request.flow = quantity_of_text("y_plus 1 " + command.flow).flow;
   if (!command.output.empty()) require_inspection_output(command.output);
   const BeforeInspection before{.cut = volume.is_half ? [&](const SurfaceValue& whole, const RunContext& part) { return half_surface(whole, half, part); }

@@ -154,9 +154,9 @@ void set_first_heights(const FunctionHandle& function, const SurfaceValue& wall,
 }
 
 void warn_of_other_member(const SurfaceValue& wall, const volmesh::MeshCase& options, const RunContext& context) {
-  if (!wall.recipe || wall.recipe->options.refinement == options.family.refinement) return;
+  if (!wall.recipe || wall.recipe->options.sizes.refinement == options.family.refinement) return;
   context.warn(fmt::format("the surface was made with refinement {:.4g}, the volume with {:.4g}: for a mesh family give both the same value",
-                           wall.recipe->options.refinement, options.family.refinement));
+                           wall.recipe->options.sizes.refinement, options.family.refinement));
 }
 
 std::span<const ScriptVerb> family_verbs() { return k_layer_options_verbs; }

@@ -73,7 +73,7 @@ PartsMesh mesh_parts(const ModelValue& value, const SurfaceRecipe& recipe, const
                      const PartMesher& in_place) {
   const std::vector<ModelPart> parts = parts_of(value);
   if (value.parts.empty()) return mesh_in_place(value, recipe, sizes, in_place, context);
-  if (recipe.options.gap_cells > 0.0 && parts.size() > 1) {
+  if (recipe.options.sizes.gap_cells > 0.0 && parts.size() > 1) {
     context.info("gap_cells: gaps between parts set edge lengths, so all parts are meshed together, in position");
     return mesh_in_place(value, recipe, sizes, in_place, context);
   }

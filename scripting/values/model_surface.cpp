@@ -213,7 +213,7 @@ surfmesh::SpaceSizes space_sizes(const SurfaceRecipe& recipe, const std::functio
   surfmesh::SpaceSizes requested{.regions = {}, .function = size, .samples = {}};
   std::vector<volmesh::SizeSource> regions;
   for (const volmesh::SizeSource& source : recipe.sources) {
-    if (const std::string problem = problem_of(source, recipe.options.growth); !problem.empty())
+    if (const std::string problem = problem_of(source, recipe.options.sizes.growth); !problem.empty())
       throw Error({.code = ErrorCode::bad_argument,
                    .attempted = "reading the sources of a surface mesh",
                    .problem = std::string(to_string(source.kind)) + ": " + problem});

@@ -30,14 +30,15 @@ BandTarget both(const BandTarget& a, const BandTarget& b) {
   return {least_said(a.chordwise, b.chordwise), least_said(a.stretch, b.stretch), std::min(a.growth, b.growth), a.rule};
 }
 
-BandTargets band_targets(const std::string& name, BandTargets targets, double refinement, std::span<const Rule> patches) {
-  targets.leading.rule = deciding_rule(name, patches, "leading_edge");
-  targets.trailing.rule = deciding_rule(name, patches, "trailing_edge");
+BandTargets band_targets(const std::string& name, const SurfaceSizeOptions& of_patch, std::span<const Rule> patches) {
+  const SurfaceSizeOptions& o = of_patch;
+  BandTargets targets{.leading = {o.leading_edge_chordwise, o.leading_edge_stretch, o.leading_edge_growth, deciding_rule(name, patches, "leading_edge")},
+                      .trailing = {o.trailing_edge_chordwise, o.trailing_edge_stretch, o.trailing_edge_growth, deciding_rule(name, patches, "trailing_edge")}};
   // The next mesh of a family: lengths are divided by the factor, so the number of cells is multiplied by it. Growth becomes the corresponding root
   // (docs/method/quality.md, "Mesh families").
   for (BandTarget* target : {&targets.leading, &targets.trailing}) {
-    target->chordwise /= refinement;
-    target->growth = std::pow(target->growth, 1.0 / refinement);
+    target->chordwise /= o.refinement;
+    target->growth = std::pow(target->growth, 1.0 / o.refinement);
   }
   return targets;
 }

@@ -29,21 +29,8 @@ struct BandTargets {
   BandTarget leading, trailing;
 };
 
-/// Returns the requirements of faces (patches) with this name. Rules override the options for all, member by member. Lengths and growth are those of the
-/// current member of the refinement family.
-template <class Options>
-BandTargets band_targets(const std::string& name, const Options& options, std::span<const Rule> patches);
-
-/// Names the rules that set given requirements, and makes them those of the current member. \param refinement refinement factor of the current member
-BandTargets band_targets(const std::string& name, BandTargets targets, double refinement, std::span<const Rule> patches);
-
-template <class Options>
-BandTargets band_targets(const std::string& name, const Options& options, std::span<const Rule> patches) {
-  const Options own = resolve(options, patches, name);
-  return band_targets(name,
-                      {{own.leading_edge_chordwise, own.leading_edge_stretch, own.leading_edge_growth, {}},
-                       {own.trailing_edge_chordwise, own.trailing_edge_stretch, own.trailing_edge_growth, {}}},
-                      own.refinement, patches);
-}
+/// Returns the requirements of a face (patch) with this name. Lengths and growth are those of the current member of the refinement family.
+/// \param of_patch size options of the patch (resolve()) \param patches rules, one of which may have set its rows
+BandTargets band_targets(const std::string& name, const SurfaceSizeOptions& of_patch, std::span<const Rule> patches);
 
 }  // namespace sterna::surfmesh

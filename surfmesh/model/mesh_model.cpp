@@ -86,8 +86,8 @@ SurfaceMesh mesh_round(Meshing& meshing, const SurfaceSizes& field, const RunCon
   parallel_for(
       context, work.size(),
       [&](std::size_t i) {
-        meshing.faces[work[i]] =
-            mesh_one_face(model, work[i], meshing.topology, meshing.cuts, numbers, meshing.sizes, meshing.bands, field, meshing.options.max_triangles, context);
+        meshing.faces[work[i]] = mesh_one_face(model, work[i], meshing.topology, meshing.cuts, numbers, meshing.sizes, meshing.bands, field,
+                                               meshing.options.sizes.max_triangles, context);
         progress.done(i);
       },
       1);
@@ -217,12 +217,12 @@ void check_options(const SurfaceMeshOptions& options) {
   SurfaceMeshOptions copy = options;
   for (const Option& option : options_of(copy))
     if (option.kind != OptionKind::number || option.automatic.empty() || !is_automatic(std::get<double>(option.get()))) set_option(option, option.get());
-  if (options.min_edge > options.max_edge)  // the comparison is false if either value is automatic
-    throw Error(
-        {.code = ErrorCode::bad_argument,
-         .attempted = k_attempted,
-         .problem = "min_edge = " + number_text(options.min_edge, k_digits) + " m is above max_edge = " + number_text(options.max_edge, k_digits) + " m",
-         .hint = "curvature and narrow regions do not require edges below min_edge; automatic sets min_edge to 2 % of max_edge"});
+  if (options.sizes.min_edge > options.sizes.max_edge)  // the comparison is false if either value is automatic
+    throw Error({.code = ErrorCode::bad_argument,
+                 .attempted = k_attempted,
+                 .problem = "min_edge = " + number_text(options.sizes.min_edge, k_digits) +
+                            " m is above max_edge = " + number_text(options.sizes.max_edge, k_digits) + " m",
+                 .hint = "curvature and narrow regions do not require edges below min_edge; automatic sets min_edge to 2 % of max_edge"});
 }
 
 }  // namespace

@@ -59,9 +59,9 @@ void require_rules(const TriMesh& wall, std::span<const Rule> rules) {
 
 SurfaceLimits limits_of(const std::string& name, double automatic_edge, const RemeshOptions& options, std::span<const Rule> rules) {
   const RemeshOptions own = resolve(options, rules, name);
-  SurfaceLimits l{or_else(own.max_edge, automatic_edge), own.min_edge, own.curvature_angle, own.chord_error};
+  SurfaceLimits l{or_else(own.sizes.max_edge, automatic_edge), own.sizes.min_edge, own.sizes.curvature_angle, own.sizes.chord_error};
   l.min_edge = std::min(or_else(l.min_edge, k_min_edge_of_max * l.max_edge), l.max_edge);
-  for (double* length : {&l.max_edge, &l.min_edge, &l.curvature_angle, &l.chord_error}) *length /= options.refinement;
+  for (double* length : {&l.max_edge, &l.min_edge, &l.curvature_angle, &l.chord_error}) *length /= options.sizes.refinement;
   return l;
 }
 
@@ -96,10 +96,10 @@ double bend_curvature(const Reference& r, HalfedgeId h, double min_edge) {
 }
 
 void check_options(const RemeshOptions& o) {
-  for (const double length : {o.max_edge, o.curvature_angle, o.chord_error, o.refinement, o.narrow})
+  for (const double length : {o.sizes.max_edge, o.sizes.curvature_angle, o.sizes.chord_error, o.sizes.refinement, o.sizes.narrow})
     if (!is_automatic(length) && !(length > 0.0)) throw_bad_argument("remeshing a surface", "sizes, angles and factors must be positive");
-  if (!(o.growth > 1.0)) throw_bad_argument("remeshing a surface", "growth must be above 1");
-  if (!is_automatic(o.max_edge) && !is_automatic(o.min_edge) && o.min_edge > o.max_edge)
+  if (!(o.sizes.growth > 1.0)) throw_bad_argument("remeshing a surface", "growth must be above 1");
+  if (!is_automatic(o.sizes.max_edge) && !is_automatic(o.sizes.min_edge) && o.sizes.min_edge > o.sizes.max_edge)
     throw_bad_argument("remeshing a surface", "min_edge is larger than max_edge");
 }
 
@@ -132,8 +132,8 @@ RemeshSizes::RemeshSizes(Borrowed<const Reference> reference, const RemeshOption
       options_(options),
       patches_(patches.begin(), patches.end()),
       requested_(requested),
-      refinement_(options.refinement),
-      slope_((options.growth - 1.0) / options.refinement),
+      refinement_(options.sizes.refinement),
+      slope_((options.sizes.growth - 1.0) / options.sizes.refinement),
       cap_(reference->mesh->n_triangles()),
       min_edge_(reference->mesh->n_triangles()),
       own_(reference->mesh->n_triangles()),
@@ -169,8 +169,8 @@ void RemeshSizes::cover(const Column<VertexId, std::uint8_t>& covered, const Run
       at_[b] = std::min(at_[b], size);
     }
   }
-  const double across = options.gap_cells > 0.0 ? 1.0 / (options.gap_cells * options.refinement) : 0.0;
-  const double through = is_automatic(options.thickness_factor) ? 0.0 : options.thickness_factor / options.refinement;
+  const double across = options.sizes.gap_cells > 0.0 ? 1.0 / (options.sizes.gap_cells * options.sizes.refinement) : 0.0;
+  const double through = is_automatic(options.sizes.thickness_factor) ? 0.0 : options.sizes.thickness_factor / options.sizes.refinement;
   if (across > 0.0 || through > 0.0) {
     const TriangleTree tree(wall, context);
     std::vector<double> found(wall.n_triangles(), k_unbounded);
@@ -198,7 +198,7 @@ void RemeshSizes::cover(const Column<VertexId, std::uint8_t>& covered, const Run
         for (const VertexId v : wall.triangles[t]) at_[v] = std::min(at_[v], found[t.index()]);
   }
   if (!requested_.samples.empty()) {
-    const SizePointTree size_points(requested_.samples, (options.growth - 1.0), context);
+    const SizePointTree size_points(requested_.samples, (options.sizes.growth - 1.0), context);
     parallel_for(context, at_.size(), [&](std::size_t v) {
       at_[VertexId(v)] = std::min(at_[VertexId(v)], size_points.smallest(wall.points[VertexId(v)], {.cap = largest_ * refinement_}) / refinement_);
     });

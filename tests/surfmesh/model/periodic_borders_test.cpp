@@ -39,8 +39,8 @@ Model blade(double trailing_edge) { return test::blade(trailing_edge, "2412", 0.
 
 SurfaceMeshOptions alike(double max_edge, const std::string& pairs = "tunnel_left,tunnel_right") {
   SurfaceMeshOptions options = edges_of(max_edge);
-  options.min_edge = 0.1 * max_edge;
-  options.growth = 1.4;
+  options.sizes.min_edge = 0.1 * max_edge;
+  options.sizes.growth = 1.4;
   options.periodic = side_pairs(pairs);
   return options;
 }
@@ -128,8 +128,8 @@ TEST(PeriodicBorders, WingsWithSharpBluntNearlySharpTrailingEdges) {
 TEST(PeriodicBorders, BandsAndStripsEndAtThem) {
   const Model model = through_duct({blade(0.01)});
   SurfaceMeshOptions options = alike(0.1);
-  options.leading_edge_chordwise = options.trailing_edge_chordwise = 0.01;
-  options.leading_edge_stretch = options.trailing_edge_stretch = 5.0;
+  options.sizes.leading_edge_chordwise = options.sizes.trailing_edge_chordwise = 0.01;
+  options.sizes.leading_edge_stretch = options.sizes.trailing_edge_stretch = 5.0;
   options.trailing_edge_cells = 3.0;
   const SurfaceMesh mesh = mesh_model(model, options, {}, k_context);
   EXPECT_GT(mesh.report.bands.n_triangles, 100);

@@ -48,8 +48,8 @@ Model fuselage() {
 
 SurfaceMeshOptions banded(double chordwise, double stretch) {
   SurfaceMeshOptions options;
-  options.leading_edge_chordwise = options.trailing_edge_chordwise = chordwise;
-  options.leading_edge_stretch = options.trailing_edge_stretch = stretch;
+  options.sizes.leading_edge_chordwise = options.sizes.trailing_edge_chordwise = chordwise;
+  options.sizes.leading_edge_stretch = options.sizes.trailing_edge_stretch = stretch;
   return options;
 }
 

@@ -26,10 +26,10 @@ Model blade(double trailing_edge) { return test::blade(trailing_edge, "0012", 0.
 
 TriMesh surface_of(const Model& body, const std::string& pairs, const RunContext& context, std::vector<Rule> rules = {}) {
   surfmesh::SurfaceMeshOptions options;
-  options.max_edge = 0.15;
-  options.min_edge = 0.015;
-  options.curvature_angle = 0.4;
-  options.growth = 1.5;
+  options.sizes.max_edge = 0.15;
+  options.sizes.min_edge = 0.015;
+  options.sizes.curvature_angle = 0.4;
+  options.sizes.growth = 1.5;
   options.periodic = side_pairs(pairs);
   return surfmesh::mesh_model(row_of(body), options, rules, context).mesh;
 }
@@ -82,10 +82,10 @@ TEST(Row, WingEndingInTwoFarfieldPlanes) {
   model.faces = std::move(wing);
   model.solids = {};
   surfmesh::SurfaceMeshOptions options;
-  options.max_edge = 0.15;
-  options.min_edge = 0.015;
-  options.curvature_angle = 0.4;
-  options.growth = 1.5;
+  options.sizes.max_edge = 0.15;
+  options.sizes.min_edge = 0.015;
+  options.sizes.curvature_angle = 0.4;
+  options.sizes.growth = 1.5;
   options.periodic = {{"symmetry_y_min", "symmetry_y_max"}};
   const TriMesh surface = surfmesh::mesh_model(model, options, {}, k_context).mesh;
   MeshCase given = layers(8, 1e-3);
