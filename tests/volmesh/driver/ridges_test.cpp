@@ -42,7 +42,7 @@ MeshCase wing_case(bool is_open) {
 Domain opened(const TriMesh& wall, const RidgeOptions& options, std::vector<VertexId> closed = {}) {
   Domain domain;
   domain.wall = wall;
-  open_ridges(options, patches_with_open_ridges(wall.patches, options.is_on(), {}), 1e-3, closed, domain, k_context);
+  open_ridges(options, patches_with_open_ridges(wall.patches, options, {}), 1e-3, closed, domain, k_context);
   return domain;
 }
 
@@ -94,8 +94,9 @@ TEST(Ridges, TooSmallAFirstHeightIsRefused) {
   for (Point& p : wall.points) p.x += 1e9;
   Domain domain;
   domain.wall = wall;
-  test::expect_error(ErrorCode::bad_argument, "too small for coordinates",
-                     [&] { open_ridges({.open_ridges = "always"}, patches_with_open_ridges(wall.patches, true, {}), 1e-3, {}, domain, k_context); });
+  test::expect_error(ErrorCode::bad_argument, "too small for coordinates", [&] {
+    open_ridges({.open_ridges = "always"}, patches_with_open_ridges(wall.patches, {.open_ridges = "always"}, {}), 1e-3, {}, domain, k_context);
+  });
 }
 
 TEST(Ridges, WedgeMeshesAreValidAndKeepWall) {
