@@ -66,7 +66,7 @@ TEST(PatchRules, SetKindsAndMoreSpecificPatternWins) {
   sort_by_pattern(rules);
   EXPECT_EQ(rules.front().names, "*");
   EXPECT_EQ(rules.back().names, "z0");
-  rules.back().kind = "wall";
+  rules.back().options["kind"] = "wall";
   apply_patch_kinds(room, rules);
   const auto layers = layers_of_patches(room.patches, growing_layers_of(1e-3, 9), rules);
   for (const PatchId patch : room.patches.ids()) {
