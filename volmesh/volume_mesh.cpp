@@ -143,7 +143,7 @@ VolumeMeshResult finish_mesh(const TriMesh& wall, FilledStage filled, const Mesh
 MeshCase with_closed_multi_normals(MeshCase options, const ClosedMultiNormals& closed) {
   if (closed.n_rounds < k_multi_normal_rounds) return options;
   options.ridges.open_ridges = "never";
-  for (PatchRule& rule : options.patches) rule.open_ridges = "never";
+  for (Rule& rule : options.patches) rule.options.erase("open_ridges");
   return options;
 }
 

@@ -50,12 +50,79 @@ constexpr EnumMember<T> enum_member() {
   return {[](const T& object) { return static_cast<int>(object.*Pointer); }, [](T& object, int index) { object.*Pointer = static_cast<E>(index); }};
 }
 
+/// The value of an option. An enumeration is the name of its enumerator; std::monostate is an optional vector without a value.
+using OptionValue = std::variant<bool, std::int64_t, double, std::string, Vec3, std::vector<double>, std::vector<Vec3>, std::monostate>;
+enum class OptionKind { boolean, integer, number, string, vector, numbers, vectors };
+
+/// Access to an option that is no plain member: a list that users write as a string, or a member of a struct inside T.
+template <class T>
+struct OptionAccess {
+  OptionKind kind;
+  OptionValue (*get)(const T&);
+  void (*set)(T&, const OptionValue&);
+  std::size_t n_inner = 0;  ///< number of members of the struct inside T; 0: the option is a member of T
+};
+
+namespace detail {
+
+template <class T, class M>
+T class_of(M T::*);
+template <class T, class M>
+M type_of(M T::*);
+
+template <class M>
+constexpr OptionKind kind_of_member() {
+  if constexpr (std::is_same_v<M, bool>) return OptionKind::boolean;
+  else if constexpr (std::is_same_v<M, int>) return OptionKind::integer;
+  else if constexpr (std::is_same_v<M, double>) return OptionKind::number;
+  else if constexpr (std::is_same_v<M, std::string>) return OptionKind::string;
+  else if constexpr (std::is_same_v<M, std::vector<double>>) return OptionKind::numbers;
+  else if constexpr (std::is_same_v<M, std::vector<Vec3>>) return OptionKind::vectors;
+  else return OptionKind::vector;
+}
+
+template <class M>
+OptionValue option_value_of(const M& value) {
+  if constexpr (std::is_same_v<M, int>) return static_cast<std::int64_t>(value);
+  else if constexpr (std::is_same_v<M, std::optional<Vec3>>) return value ? OptionValue(*value) : OptionValue(std::monostate{});
+  else return value;
+}
+
+template <class M>
+void store_value(M& member, const OptionValue& value) {
+  const std::int64_t* whole = std::get_if<std::int64_t>(&value);
+  if constexpr (std::is_same_v<M, int>) member = static_cast<int>(std::get<std::int64_t>(value));
+  else if constexpr (std::is_same_v<M, double>) member = whole ? static_cast<double>(*whole) : std::get<double>(value);
+  else if constexpr (std::is_same_v<M, std::optional<Vec3>>) member = std::holds_alternative<Vec3>(value) ? std::optional(std::get<Vec3>(value)) : std::nullopt;
+  else member = std::get<M>(value);
+}
+
+}  // namespace detail
+
+/// Describes the member `Pointer`, which users give as a string. Parse returns its value, or throws Error(bad_argument); Print returns the string.
+template <auto Pointer, auto Parse, auto Print>
+constexpr auto text_option() {
+  using T = decltype(detail::class_of(Pointer));
+  return OptionAccess<T>{OptionKind::string, [](const T& object) { return OptionValue(Print(object.*Pointer)); },
+                         [](T& object, const OptionValue& text) { object.*Pointer = Parse(std::get<std::string>(text)); }};
+}
+
+/// Describes the member `Inner` of the struct that is the member `Outer`. T may have one such struct.
+template <auto Outer, auto Inner>
+constexpr auto inner_option() {
+  using T = decltype(detail::class_of(Outer));
+  using M = decltype(detail::type_of(Inner));
+  return OptionAccess<T>{detail::kind_of_member<M>(), [](const T& object) { return detail::option_value_of((object.*Outer).*Inner); },
+                         [](T& object, const OptionValue& value) { detail::store_value((object.*Outer).*Inner, value); },
+                         member_count<decltype(detail::type_of(Outer))>()};
+}
+
 /// One member of an options struct.
 template <class T>
 struct Field {
   std::string_view name;
   std::variant<bool T::*, int T::*, double T::*, std::string T::*, Vec3 T::*, std::optional<Vec3> T::*, std::vector<double> T::*, std::vector<Vec3> T::*,
-               EnumMember<T>>
+               EnumMember<T>, OptionAccess<T>>
       member;
   Unit unit = Unit::none;
   double min = -k_unbounded;  ///< smallest valid value
@@ -74,10 +141,6 @@ struct Field {
 ///   };
 template <class T>
 struct Schema;
-
-/// The value of an option. An enumeration is the name of its enumerator; std::monostate is an optional vector without a value.
-using OptionValue = std::variant<bool, std::int64_t, double, std::string, Vec3, std::vector<double>, std::vector<Vec3>, std::monostate>;
-enum class OptionKind { boolean, integer, number, string, vector, numbers, vectors };
 
 /// Returns "a whole number", "{x, y, z}" and so on, for messages.
 std::string_view kind_text(OptionKind kind);
@@ -117,35 +180,56 @@ std::string_view choice_at(std::string_view choices, int index);
 /// Returns the index of a name in such a list; -1 if it is not there.
 int index_of_choice(std::string_view choices, std::string_view name);
 
-template <class M>
-constexpr OptionKind kind_of_member() {
-  if constexpr (std::is_same_v<M, bool>) return OptionKind::boolean;
-  else if constexpr (std::is_same_v<M, int>) return OptionKind::integer;
-  else if constexpr (std::is_same_v<M, double>) return OptionKind::number;
-  else if constexpr (std::is_same_v<M, std::string>) return OptionKind::string;
-  else if constexpr (std::is_same_v<M, std::vector<double>>) return OptionKind::numbers;
-  else if constexpr (std::is_same_v<M, std::vector<Vec3>>) return OptionKind::vectors;
-  else return OptionKind::vector;
+}  // namespace detail
+
+/// Returns the kind of the option that a field describes.
+template <class T>
+OptionKind kind_of_field(const Field<T>& field) {
+  return std::visit(
+      []<class Member>(const Member& member) {
+        if constexpr (std::is_same_v<Member, EnumMember<T>>) return OptionKind::string;
+        else if constexpr (std::is_same_v<Member, OptionAccess<T>>) return member.kind;
+        else return detail::kind_of_member<std::remove_reference_t<decltype(std::declval<T&>().*member)>>();
+      },
+      field.member);
 }
 
-template <class M>
-OptionValue value_of_member(const M& value) {
-  if constexpr (std::is_same_v<M, int>) return static_cast<std::int64_t>(value);
-  else if constexpr (std::is_same_v<M, std::optional<Vec3>>) return value ? OptionValue(*value) : OptionValue(std::monostate{});
-  else return value;
+/// Returns the value of the member that a field describes.
+template <class T>
+OptionValue value_of_member(const T& object, const Field<T>& field) {
+  return std::visit(
+      [&]<class Member>(const Member& member) -> OptionValue {
+        if constexpr (std::is_same_v<Member, EnumMember<T>>) return std::string(detail::choice_at(field.choices, member.get(object)));
+        else if constexpr (std::is_same_v<Member, OptionAccess<T>>) return member.get(object);
+        else return detail::option_value_of(object.*member);
+      },
+      field.member);
 }
 
-template <class T, class M>
-void set_access(Option& option, T& object, const T& defaults, M T::*member) {
-  option.kind = kind_of_member<M>();
-  option.default_value = value_of_member(defaults.*member);
-  option.get = [&object, member] { return value_of_member(object.*member); };
-  option.store = [&object, member](const OptionValue& v) {
-    if constexpr (std::is_same_v<M, int>) object.*member = static_cast<int>(std::get<std::int64_t>(v));
-    else if constexpr (std::is_same_v<M, std::optional<Vec3>>)
-      object.*member = std::holds_alternative<Vec3>(v) ? std::optional(std::get<Vec3>(v)) : std::nullopt;
-    else object.*member = std::get<M>(v);
-  };
+/// Stores a value in the member that a field describes, without any check. Whole numbers are accepted for floating-point members.
+template <class T>
+void store_member(T& object, const Field<T>& field, const OptionValue& value) {
+  std::visit(
+      [&]<class Member>(const Member& member) {
+        if constexpr (std::is_same_v<Member, EnumMember<T>>) member.set(object, detail::index_of_choice(field.choices, std::get<std::string>(value)));
+        else if constexpr (std::is_same_v<Member, OptionAccess<T>>) member.set(object, value);
+        else detail::store_value(object.*member, value);
+      },
+      field.member);
+}
+
+namespace detail {
+
+/// Returns the number of members that the Schema describes. The fields of a struct inside T count as one member if they describe all of its members.
+template <class T>
+constexpr std::size_t n_described() {
+  std::size_t n = 0, n_inner = 0, n_expected = 0;
+  for (const Field<T>& field : Schema<T>::fields) {
+    const auto* access = std::get_if<OptionAccess<T>>(&field.member);
+    if (!access || access->n_inner == 0) ++n;
+    else ++n_inner, n_expected = access->n_inner;
+  }
+  return n_inner == n_expected ? n + (n_inner > 0 ? 1 : 0) : 0;
 }
 
 }  // namespace detail
@@ -153,7 +237,7 @@ void set_access(Option& option, T& object, const T& defaults, M T::*member) {
 /// Returns the options of `instance`, in schema order. `instance` must outlive the table.
 template <class T>
 OptionTable options_of(T& instance) {
-  static_assert(member_count<T>() == Schema<T>::fields.size(), "every member of the options struct needs one entry in its Schema");
+  static_assert(member_count<T>() == detail::n_described<T>(), "every member of the options struct needs one entry in its Schema");
   static const T defaults{};
   OptionTable table;
   for (const Field<T>& field : Schema<T>::fields) {
@@ -167,20 +251,10 @@ OptionTable options_of(T& instance) {
     option.automatic = field.automatic;
     option.choices = field.choices;
     option.required = field.required;
-    std::visit(
-        [&]<class Member>(Member member) {
-          T* object = &instance;
-          if constexpr (std::is_same_v<Member, EnumMember<T>>) {
-            const std::string_view choices = field.choices;
-            option.kind = OptionKind::string;
-            option.default_value = std::string(detail::choice_at(choices, member.get(defaults)));
-            option.get = [object, member, choices] { return OptionValue(std::string(detail::choice_at(choices, member.get(*object)))); };
-            option.store = [object, member, choices](const OptionValue& v) { member.set(*object, detail::index_of_choice(choices, std::get<std::string>(v))); };
-          } else {
-            detail::set_access(option, *object, defaults, member);
-          }
-        },
-        field.member);
+    option.kind = kind_of_field(field);
+    option.default_value = value_of_member(defaults, field);
+    option.get = [object = &instance, described = &field] { return value_of_member(*object, *described); };
+    option.store = [object = &instance, described = &field](const OptionValue& value) { store_member(*object, *described, value); };
     table.push_back(std::move(option));
   }
   return table;

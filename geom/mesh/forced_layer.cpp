@@ -263,7 +263,7 @@ std::optional<GivenLayer::Room> GivenLayer::room_of(std::uint32_t line, double g
   if (!(lean > k_least_lean_cosine)) return std::nullopt;
   // The request has at least as many layers as the line. In a gap the tallest last cell follows from the actual number of layers.
   const int n = mesh_.layers.n_steps(line), n_requested = request.line_layers.empty() ? n : request.line_layers[line];
-  const double growth = k_growth_room * (request.line_max_growth.empty() ? request.max_growth : request.line_max_growth[line]);
+  const double growth = k_growth_room * request.max_growth_of(line);
   if (!(growth > 1.0) || n < 1) return std::nullopt;
   const double power = std::pow(growth, n), power_requested = std::pow(growth, n_requested);
   const double first = k_first_height_room * request.first_height_of(line) / lean;

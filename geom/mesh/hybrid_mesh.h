@@ -129,6 +129,7 @@ struct LayerRequest {
   /// Returns the smallest height in m at which a line with n layers meets its first height (see line_first_room).
   double first_room_of(std::size_t line, int n) const { return line_first_room.empty() ? n * first_height_of(line) : line_first_room[line]; }
   double first_height_of(std::size_t line) const { return line_first_height.empty() ? first_height : line_first_height[line]; }
+  double max_growth_of(std::size_t line) const { return line_max_growth.empty() ? max_growth : line_max_growth[line]; }
 };
 
 /// Returns the columns by line (for_each_column). A new member of LayerRequest does not compile until it is added here.

@@ -194,6 +194,25 @@ struct Archive<Measured> {
   static void read(ByteSource&, Measured&) {}
 };
 
+template <class Key, class T, class Less>
+struct Archive<std::map<Key, T, Less>> {
+  static void write(ByteSink& sink, const std::map<Key, T, Less>& value) {
+    write_count(sink, value.size());
+    for (const auto& [key, item] : value) {
+      write_value(sink, key);
+      write_value(sink, item);
+    }
+  }
+  static void read(ByteSource& source, std::map<Key, T, Less>& value) {
+    value.clear();
+    for (std::size_t n = read_count(source, 1); n > 0; --n) {
+      Key key{};
+      read_value(source, key);
+      read_value(source, value[std::move(key)]);
+    }
+  }
+};
+
 template <>
 struct Archive<std::monostate> {
   static void write(ByteSink&, const std::monostate&) {}

@@ -61,7 +61,7 @@ int inspect_command(const CommandLine& line, const CommandContext& context) {
   if (is_half || !request.volume.farfield.farfield_floor.empty()) surface.allow_open = true;
   complete_layers(request.volume, given, "reading the options");
   if (std::ranges::any_of(given, [](const auto& option) { return option.first == "refinement" || option.first == "family.refinement"; }))
-    recipe.options.refinement = request.volume.family.refinement;  // as `sterna mesh`
+    recipe.options.sizes.refinement = request.volume.family.refinement;  // as `sterna mesh`
   if (const std::string flow = line.word("flow"); !flow.empty()) request.flow = quantity_of_text("y_plus 1 " + flow).flow;
   if (!output.empty()) require_inspection_output(output);
   const BeforeInspection before{

@@ -140,7 +140,7 @@ SurfaceValue remeshed_wall(const MeshRequest& request, const volmesh::MeshCase& 
     return wall;
   }
   RemeshRecipe recipe;
-  if (request.is_given("family", "refinement")) recipe.options.refinement = volume.family.refinement;
+  if (request.is_given("family", "refinement")) recipe.options.sizes.refinement = volume.family.refinement;
   set_options(sterna::options_of(recipe.options), request.remesh, context);
   layer_rules_of(request.line.patches_of("patch"), &recipe.patches);
   recipe.sources = sources_of(request.line.all("source"));
@@ -175,7 +175,7 @@ void set_mesh_options(const MeshRequest& request, bool is_model, AutoSurface& re
   elsewhere.push_back({sterna::options_of(unused.wrap), "is given without --wrap"});
   set_options(table, given, context, elsewhere);
   if (is_model && request.is_given("family", "refinement") && !request.is_given("surface_mesh", "refinement"))
-    requested.recipe.options.refinement = volume.family.refinement;
+    requested.recipe.options.sizes.refinement = volume.family.refinement;
 }
 
 void log_flow_texts(const MeshRequest& request, const RunContext& context) {
@@ -203,7 +203,7 @@ MeshValue fill(const MeshRequest& request, SurfaceValue wall, const volmesh::Mes
   if (request.is_auto() && options.farfield.farfield_floor.empty()) wall = as_body(wall, options.farfield.farfield_shape != "none", part);
   if (!request.is_auto() || request.is_remeshed()) return make_volume_mesh(wall, options, request.stages(), part, reuse);
   RemeshRecipe recipe;
-  recipe.options.refinement = options.family.refinement;
+  recipe.options.sizes.refinement = options.family.refinement;
   recipe.sources = sources_of(request.line.all("source"));
   set_options(sterna::options_of(recipe.options), request.remesh, context);
   const std::size_t n_steps = wall.history.size();
@@ -234,7 +234,7 @@ MeshValue mesh_files(const MeshRequest& request, const Reuse& reuse, const Comma
   AutoSurface requested;
   SurfaceRecipe& recipe = requested.recipe;
   volmesh::MeshCase volume;
-  std::vector<surfmesh::PatchSurfaceOptions> sizes;  // sizes of new triangles; remeshed_wall reads them again
+  std::vector<Rule> sizes;  // sizes of new triangles; remeshed_wall reads them again
   volume.patches = layer_rules_of(request.line.patches_of("patch"), is_model ? &recipe.patches : request.is_remeshed() ? &sizes : nullptr);
   if (is_model) recipe.sources = sources_of(request.line.all("source"));  // one source applies to wall and volume
   requested.stitching.allow_open = !is_model && request.line.flag("half");

@@ -71,8 +71,8 @@ void refuse_on_triangulations(const CommandLine& line) {
   for (const auto& [name, text] : line.options)
     if (name != "unit" && name != "read_cad.unit" && !name.starts_with("remesh.") && !name.starts_with("repair.") && !name.starts_with("wrap.")) add(name);
   if (!line.all("source").empty()) add("--source");
-  surfmesh::PatchSurfaceOptions sizes;
-  const OptionTable table = patch_rule_options(sizes);
+  Rule sizes;
+  const OptionTable table = size_rule_options(sizes);
   for (const auto& [pattern, options] : line.patches_of("patch"))
     for (const auto& [name, text] : options)
       if (std::ranges::find(table, name, &Option::name) != table.end()) add("--patch " + pattern + ":" + name);
@@ -103,7 +103,7 @@ int surface_command(const CommandLine& line, const CommandContext& context) {
     throw Error({.code = ErrorCode::bad_argument, .attempted = "option " + of_stages.front().first, .problem = "is given without --auto"});
   set_options(model_surface_options(recipe.options, reading), own, context);
   for (const auto& option : of_stages) set_options(stage_of(option.first), {option}, context);
-  const std::vector<volmesh::PatchRule> layers = layer_rules_of(line.patches_of("patch"), &recipe.patches);
+  const std::vector<Rule> layers = layer_rules_of(line.patches_of("patch"), &recipe.patches);
   for (const std::string& source : line.all("source")) recipe.sources.push_back(source_of_text(source));
   refuse_on_triangulations(line);
   for (const std::string& output : line.all("output")) require_surface_output(output);

@@ -130,9 +130,8 @@ ScriptValue patches_entry(const PatchEntries& patches) {
   ScriptTable table;
   std::map<std::string, ScriptTable> rules;
   for (const auto& [names, options] : patches) {
-    surfmesh::PatchSurfaceOptions size;
-    volmesh::PatchRule rule;
-    const OptionTable known = surface_and_layer_options(size, rule);
+    Rule rule;
+    const OptionTable known = surface_and_layer_options(rule);
     for (const auto& [name, text] : options) {
       const Option& option = find_option(known, name, "--patch \"" + names + "\"");
       set_option_as_typed(option, text);

@@ -15,7 +15,7 @@
 #include "scripting/cache/reuse.h"
 #include "surfmesh/model/carry_mesh.h"
 #include "volmesh/case/envelope_options.h"
-#include "volmesh/case/patch_rule.h"
+#include "volmesh/case/layer_rules.h"
 #include "volmesh/parts/warm_start.h"
 
 namespace sterna::scripting {
@@ -30,7 +30,7 @@ struct KeptPart {
   surfmesh::StructuredMesh mesh;
   ContentKey geometry;  ///< key of the points of its vertices on the model (carried_points); equal keys mean equal geometry
   surfmesh::SurfaceMeshOptions options;
-  std::vector<surfmesh::PatchSurfaceOptions> patches;
+  std::vector<Rule> patches;
   bool has_local_sizes = false;  ///< sources or a size function apply to the part
 };
 

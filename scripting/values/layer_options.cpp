@@ -158,9 +158,9 @@ void set_first_heights(const FunctionHandle& function, const SurfaceValue& wall,
 
 void warn_of_other_member(const SurfaceValue& wall, const volmesh::MeshCase& options, const RunContext& context) {
   const SurfaceRecipe* const recipe = last_of<SurfaceRecipe>(wall.history);
-  if (!recipe || recipe->options.refinement == options.family.refinement) return;
+  if (!recipe || recipe->options.sizes.refinement == options.family.refinement) return;
   context.warn(fmt::format("the surface was made with refinement {:.4g}, the volume with {:.4g}: for a mesh family give both the same value",
-                           recipe->options.refinement, options.family.refinement));
+                           recipe->options.sizes.refinement, options.family.refinement));
 }
 
 std::span<const ScriptVerb> family_verbs() { return k_layer_options_verbs; }

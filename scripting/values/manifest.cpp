@@ -134,7 +134,7 @@ void add_request(Json& json, const MeshOrigin& origin) {
   if (const SurfaceRecipe* const recipe = last_of<SurfaceRecipe>(history)) add_recipe(json, *recipe);
   add_changes(json, history);
   if (origin.smooth_angle) json["wall"] = {{"max_smooth_angle", *origin.smooth_angle}};
-  if (!volume.patches.empty()) json["patch_rules"] = layer_rules_json(volume.patches);
+  if (!volume.patches.empty()) json["patch_rules"] = rules_json(volume.patches);
   if (volume.first_heights)
     json["first_heights"] = {{"by", "a function of location"}, {"least", volume.first_heights->least()}, {"greatest", volume.first_heights->greatest()}};
   if (!volume.sources.empty()) json["sources"] = values_json(volume.sources);

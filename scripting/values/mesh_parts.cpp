@@ -26,12 +26,12 @@ SpaceSizes in_frame(const SpaceSizes& sizes, const Transform& placement) {
 }
 
 /// Returns the rules that apply to a part, and those that apply to no part. mesh_model rejects the latter.
-std::vector<surfmesh::PatchSurfaceOptions> rules_for(const Model& part, const Model& all, const std::vector<surfmesh::PatchSurfaceOptions>& rules) {
-  const auto concerns = [](const Model& model, const surfmesh::PatchSurfaceOptions& rule) {
+std::vector<Rule> rules_for(const Model& part, const Model& all, const std::vector<Rule>& rules) {
+  const auto concerns = [](const Model& model, const Rule& rule) {
     return std::any_of(model.faces.begin(), model.faces.end(), [&](const ModelFace& face) { return matches_glob(face.name, rule.names); });
   };
-  std::vector<surfmesh::PatchSurfaceOptions> result;
-  for (const surfmesh::PatchSurfaceOptions& rule : rules)
+  std::vector<Rule> result;
+  for (const Rule& rule : rules)
     if (concerns(part, rule) || !concerns(all, rule)) result.push_back(rule);
   return result;
 }
@@ -41,19 +41,19 @@ bool has_face(const Model& model, const std::string& name) {
 }
 
 /// Returns true if both sides of each pair are faces of the same part, or are in no part. mesh_model rejects the latter.
-bool are_pairs_within_parts(const ModelValue& value, const std::vector<ModelPart>& parts, const std::vector<surfmesh::SidePair>& pairs) {
+bool are_pairs_within_parts(const ModelValue& value, const std::vector<ModelPart>& parts, const std::vector<PeriodicNames>& pairs) {
   for (std::size_t i = 0; i < parts.size(); ++i) {
     const Model own = own_model(value, parts, i);
-    for (const surfmesh::SidePair& pair : pairs)
-      if (has_face(own, pair[0]) != has_face(own, pair[1]) && has_face(value.model, pair[0]) && has_face(value.model, pair[1])) return false;
+    for (const PeriodicNames& pair : pairs)
+      if (has_face(own, pair.first) != has_face(own, pair.second) && has_face(value.model, pair.first) && has_face(value.model, pair.second)) return false;
   }
   return true;
 }
 
 /// Returns the pairs of a part, and the pairs that belong to no part.
-std::string pairs_for(const Model& part, const Model& all, std::vector<surfmesh::SidePair> pairs) {
-  std::erase_if(pairs, [&](const surfmesh::SidePair& pair) { return has_face(all, pair[0]) && has_face(all, pair[1]) && !has_face(part, pair[0]); });
-  return surfmesh::side_pairs_text(pairs);
+std::vector<PeriodicNames> pairs_for(const Model& part, const Model& all, std::vector<PeriodicNames> pairs) {
+  std::erase_if(pairs, [&](const PeriodicNames& pair) { return has_face(all, pair.first) && has_face(all, pair.second) && !has_face(part, pair.first); });
+  return pairs;
 }
 
 std::string name_of(const Model& part) { return part.components.size() == 0 ? part.faces.raw().front().name : part.components.raw().front().name; }
@@ -73,11 +73,11 @@ PartsMesh mesh_parts(const ModelValue& value, const SurfaceRecipe& recipe, const
                      const PartMesher& in_place) {
   const std::vector<ModelPart> parts = parts_of(value);
   if (value.parts.empty()) return mesh_in_place(value, recipe, sizes, in_place, context);
-  if (recipe.options.gap_cells > 0.0 && parts.size() > 1) {
+  if (recipe.options.sizes.gap_cells > 0.0 && parts.size() > 1) {
     context.info("gap_cells: gaps between parts set edge lengths, so all parts are meshed together, in position");
     return mesh_in_place(value, recipe, sizes, in_place, context);
   }
-  const std::vector<surfmesh::SidePair> pairs = surfmesh::side_pairs(recipe.options.periodic);
+  const std::vector<PeriodicNames>& pairs = recipe.options.periodic;
   if (!pairs.empty() && !are_pairs_within_parts(value, parts, pairs)) {
     context.info("periodic sides belong to different parts, so all parts are meshed together, in position");
     return mesh_in_place(value, recipe, sizes, in_place, context);

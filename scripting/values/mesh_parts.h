@@ -18,11 +18,11 @@ namespace sterna::scripting {
 struct PartTask {
   Model model;  ///< the part in its own frame, with its names
   surfmesh::SurfaceMeshOptions options;
-  std::vector<surfmesh::PatchSurfaceOptions> patches;  ///< rules that match the name of one of its faces
-  surfmesh::SpaceSizes sizes;                          ///< sizes in the part's own frame
-  bool has_local_sizes = false;                        ///< sizes are set: they depend on the part's location
-  Transform placement;                                 ///< placement of the part; affects its mesh only if has_local_sizes
-  std::optional<ContentKey> model_key;                 ///< key of the inputs of the model, except its names and kinds; nothing: unknown
+  std::vector<Rule> patches;            ///< rules that match the name of one of its faces
+  surfmesh::SpaceSizes sizes;           ///< sizes in the part's own frame
+  bool has_local_sizes = false;         ///< sizes are set: they depend on the part's location
+  Transform placement;                  ///< placement of the part; affects its mesh only if has_local_sizes
+  std::optional<ContentKey> model_key;  ///< key of the inputs of the model, except its names and kinds; nothing: unknown
 };
 
 /// Meshes one part.

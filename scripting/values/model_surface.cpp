@@ -24,59 +24,6 @@
 #include "surfmesh/model/periodic_borders.h"
 #include "volmesh/case/size_sources.h"
 
-namespace sterna {
-
-template <>
-struct Schema<surfmesh::PatchSurfaceOptions> {
-  using O = surfmesh::PatchSurfaceOptions;
-  static constexpr std::string_view stage = "patches";
-  static constexpr std::string_view as_all = "the value for all patches";
-  static constexpr std::array own_fields = {
-      Field<O>{.name = "names", .member = &O::names, .help = "pattern of names of faces"},
-      Field<O>{.name = "max_edge", .member = &O::max_edge, .unit = Unit::metre, .min = 1e-9, .help = "target length of the longest edges", .automatic = as_all},
-      Field<O>{.name = "min_edge",
-               .member = &O::min_edge,
-               .unit = Unit::metre,
-               .min = 0.0,
-               .help = "shortest edge length that curvature and narrow regions can require",
-               .automatic = as_all},
-      Field<O>{.name = "curvature_angle",
-               .member = &O::curvature_angle,
-               .unit = Unit::radian,
-               .min = 0.001,
-               .max = 1.6,
-               .help = "largest angle of the curved surface spanned by an edge",
-               .automatic = as_all},
-      Field<O>{.name = "chord_error",
-               .member = &O::chord_error,
-               .unit = Unit::metre,
-               .min = 1e-9,
-               .help = "largest distance of triangle centres from the surface; smaller features need not be resolved",
-               .automatic = as_all},
-      Field<O>{.name = "leading_edge_factor",
-               .member = &O::leading_edge_factor,
-               .min = 0.01,
-               .max = 1.0,
-               .help = "edge length at leading edges, relative to the longest edge",
-               .automatic = as_all},
-      Field<O>{.name = "trailing_edge_factor",
-               .member = &O::trailing_edge_factor,
-               .min = 0.01,
-               .max = 1.0,
-               .help = "edge length at trailing edges, relative to the longest edge",
-               .automatic = as_all},
-      Field<O>{.name = "trailing_edge_cells",
-               .member = &O::trailing_edge_cells,
-               .min = 1.0,
-               .max = 100.0,
-               .help = "number of cells across the base of blunt trailing edges",
-               .automatic = as_all},
-  };
-  static constexpr auto fields = joined(own_fields, surfmesh::edge_row_fields<O>(as_all, as_all, as_all));
-};
-
-}  // namespace sterna
-
 namespace sterna::scripting {
 namespace {
 
@@ -133,19 +80,19 @@ constexpr double k_same_angle = 1e-3;
 
 /// Returns rules with the triangle settings of components in an .smx file, except settings that sumo derived itself. There are rules only for components with
 /// faces of their name.
-std::vector<surfmesh::PatchSurfaceOptions> rules_of(const Aircraft& aircraft, const Model& model) {
-  std::vector<surfmesh::PatchSurfaceOptions> rules;
+std::vector<Rule> rules_of(const Aircraft& aircraft, const Model& model) {
+  std::vector<Rule> rules;
   const auto add = [&](const std::string& name, const std::optional<MeshCriterion>& criterion) {
     if (!criterion || criterion->is_automatic || std::none_of(model.faces.begin(), model.faces.end(), [&](const ModelFace& face) { return face.name == name; }))
       return;
-    surfmesh::PatchSurfaceOptions rule{.names = name};
-    if (criterion->max_edge) rule.max_edge = *criterion->max_edge;
-    if (criterion->min_edge) rule.min_edge = *criterion->min_edge;
+    Rule rule{.names = name, .options = {}};
+    if (criterion->max_edge) rule.options["max_edge"] = *criterion->max_edge;
+    if (criterion->min_edge) rule.options["min_edge"] = *criterion->min_edge;
     if (criterion->max_normal_angle && std::abs(*criterion->max_normal_angle - k_sumo_angle) > k_same_angle)
-      rule.curvature_angle = *criterion->max_normal_angle;
+      rule.options["curvature_angle"] = *criterion->max_normal_angle;
     if (criterion->is_wing) {
-      rule.leading_edge_factor = std::clamp(criterion->leading_edge_factor, 0.01, 1.0);
-      rule.trailing_edge_factor = std::clamp(criterion->trailing_edge_factor, 0.01, 1.0);
+      rule.options["leading_edge_factor"] = std::clamp(criterion->leading_edge_factor, 0.01, 1.0);
+      rule.options["trailing_edge_factor"] = std::clamp(criterion->trailing_edge_factor, 0.01, 1.0);
     }
     rules.push_back(std::move(rule));
   };
@@ -155,28 +102,24 @@ std::vector<surfmesh::PatchSurfaceOptions> rules_of(const Aircraft& aircraft, co
 }
 
 /// Puts rules of files before the user's rules, so that the user's rules win.
-void put_first(std::vector<surfmesh::PatchSurfaceOptions> rules, SurfaceRecipe& recipe) {
-  recipe.patches.insert(recipe.patches.begin(), rules.begin(), rules.end());
-}
+void put_first(std::vector<Rule> rules, SurfaceRecipe& recipe) { recipe.patches.insert(recipe.patches.begin(), rules.begin(), rules.end()); }
 
 /// Returns the rules that match the name of a face. Others are left out, because a boolean may have removed all their faces.
-std::vector<surfmesh::PatchSurfaceOptions> present(std::vector<surfmesh::PatchSurfaceOptions> rules, const Model& model) {
-  std::erase_if(rules, [&](const surfmesh::PatchSurfaceOptions& rule) {
+std::vector<Rule> present(std::vector<Rule> rules, const Model& model) {
+  std::erase_if(rules, [&](const Rule& rule) {
     return std::none_of(model.faces.begin(), model.faces.end(), [&](const ModelFace& face) { return matches_glob(face.name, rule.names); });
   });
   return rules;
 }
 
-void add_periodic_faces(const std::vector<ModelHandle>& models, std::span<const volmesh::PeriodicNames> periodic, SurfaceRecipe& recipe) {
+void add_periodic_faces(const std::vector<ModelHandle>& models, std::span<const PeriodicNames> periodic, SurfaceRecipe& recipe) {
   const auto is_face = [&](const std::string& name) {
     if (surfmesh::is_open_plane(name)) return std::ranges::any_of(models, [](const ModelHandle& model) { return !free_edges(model->model).empty(); });
     return std::ranges::any_of(
         models, [&](const ModelHandle& model) { return std::ranges::any_of(model->model.faces, [&](const ModelFace& face) { return face.name == name; }); });
   };
-  std::vector<volmesh::PeriodicNames> pairs = periodic_of_surface(recipe.options.periodic);
-  for (const volmesh::PeriodicNames& pair : periodic)
-    if (is_face(pair.first) && is_face(pair.second)) pairs.push_back(pair);
-  recipe.options.periodic = periodic_text(pairs);
+  for (const PeriodicNames& pair : periodic)
+    if (is_face(pair.first) && is_face(pair.second)) recipe.options.periodic.push_back(pair);
 }
 
 std::string indented(std::string text) {
@@ -248,7 +191,7 @@ SurfaceValue mesh_from_scratch(const std::vector<ModelHandle>& models, const Sur
   recipe.has_function = static_cast<bool>(size);
   SurfaceValue surface{.inputs = all.inputs, .history = {{.options = recipe}}};
   surface.parts = std::move(made.parts);
-  for (const volmesh::PatchRule& rule : all.layers)
+  for (const Rule& rule : all.layers)
     if (std::any_of(all.model.faces.begin(), all.model.faces.end(), [&](const ModelFace& face) { return face.name == rule.names; }))
       surface.layers.push_back(rule);
   surface.smooth_angle = made.mesh.report.max_smooth_angle;
@@ -271,7 +214,7 @@ surfmesh::SpaceSizes space_sizes(const SurfaceRecipe& recipe, const std::functio
   surfmesh::SpaceSizes requested{.regions = {}, .function = size, .samples = {}};
   std::vector<volmesh::SizeSource> regions;
   for (const volmesh::SizeSource& source : recipe.sources) {
-    if (const std::string problem = problem_of(source, recipe.options.growth); !problem.empty())
+    if (const std::string problem = problem_of(source, recipe.options.sizes.growth); !problem.empty())
       throw Error({.code = ErrorCode::bad_argument,
                    .attempted = "reading the sources of a surface mesh",
                    .problem = std::string(to_string(source.kind)) + ": " + problem});
@@ -292,27 +235,6 @@ OptionTable with_edge_tables(OptionTable table) {
     for (const std::string_view edge : {"leading_edge", "trailing_edge"})
       if (option.name.starts_with(edge)) option.stage = edge;
   return table;
-}
-
-OptionTable patch_rule_options(surfmesh::PatchSurfaceOptions& rule) {
-  OptionTable table = with_edge_tables(sterna::options_of(rule));
-  std::erase_if(table, [](const Option& option) { return option.name == "names"; });  // the key of the entry
-  return table;
-}
-
-Json patch_rules_json(const std::vector<surfmesh::PatchSurfaceOptions>& rules) {
-  Json list = Json::array();
-  for (surfmesh::PatchSurfaceOptions rule : rules) list.push_back(rule_json(rule.names, patch_rule_options(rule)));
-  return list;
-}
-
-std::vector<surfmesh::PatchSurfaceOptions> patch_rules_of_json(const Json& list) {
-  std::vector<surfmesh::PatchSurfaceOptions> rules;
-  read_rules_json(list, "reading the options of a surface mesh", [&](const std::string& names) {
-    rules.push_back({.names = names});
-    return patch_rule_options(rules.back());
-  });
-  return rules;
 }
 
 std::string surface_mesh_text(const Model& model, const SurfaceValue& surface) {
@@ -347,7 +269,7 @@ SurfaceValue mesh_models(const std::vector<ModelHandle>& models, const SurfaceRe
 }
 
 ModelsOfFiles read_model_files(std::span<const InputPath> files, const ReadCadOptions& reading, const SurfaceRecipe& recipe, const RunContext& context,
-                               std::span<const volmesh::PeriodicNames> periodic) {
+                               std::span<const PeriodicNames> periodic) {
   for (const InputPath& file : files)
     if (!is_model_file(file.path))
       throw Error({.code = ErrorCode::bad_argument,
@@ -378,7 +300,7 @@ SurfaceValue mesh_model_files(const ModelsOfFiles& files, const RunContext& cont
 }
 
 SurfaceValue mesh_model_files(std::span<const InputPath> files, const ReadCadOptions& reading, const SurfaceRecipe& recipe, const RunContext& context,
-                              const Reuse& reuse, std::span<const volmesh::PeriodicNames> periodic) {
+                              const Reuse& reuse, std::span<const PeriodicNames> periodic) {
   return mesh_model_files(read_model_files(files, reading, recipe, context, periodic), context, reuse);
 }
 

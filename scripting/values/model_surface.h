@@ -29,7 +29,7 @@ SurfaceValue mesh_models(const std::vector<ModelHandle>& models, const SurfaceRe
 /// \p periodic: pairs of sides of the volume; pairs of faces of the models go into the recipe
 /// \throws Error of read_model, unite_solids, mesh_models; bad_argument for a file that is no model
 SurfaceValue mesh_model_files(std::span<const InputPath> files, const ReadCadOptions& reading, const SurfaceRecipe& recipe, const RunContext& context,
-                              const Reuse& reuse = {}, std::span<const volmesh::PeriodicNames> periodic = {});
+                              const Reuse& reuse = {}, std::span<const PeriodicNames> periodic = {});
 
 /// Models as read from files, before their surface is meshed.
 struct ModelsOfFiles {
@@ -38,7 +38,7 @@ struct ModelsOfFiles {
 };
 /// Reads the models: the first half of mesh_model_files().
 ModelsOfFiles read_model_files(std::span<const InputPath> files, const ReadCadOptions& reading, const SurfaceRecipe& recipe, const RunContext& context,
-                               std::span<const volmesh::PeriodicNames> periodic = {});
+                               std::span<const PeriodicNames> periodic = {});
 /// Meshes the models: the second half of mesh_model_files().
 SurfaceValue mesh_model_files(const ModelsOfFiles& files, const RunContext& context, const Reuse& reuse = {});
 
@@ -56,12 +56,6 @@ surfmesh::SpaceSizes space_sizes(const SurfaceRecipe& recipe, const std::functio
 
 /// Returns the same options, with those of bands in separate stages: leading_edge = { chordwise = 0.004 } stands for leading_edge_chordwise.
 OptionTable with_edge_tables(OptionTable table);
-/// Returns the options of one entry of patches = { ["wing*"] = { max_edge = 0.1 } }. `rule` must outlive the table.
-OptionTable patch_rule_options(surfmesh::PatchSurfaceOptions& rule);
-/// patch_rules_json returns a list of objects with the options that each rule sets, for manifests; the second function reads such a list.
-/// \throws Error(file_malformed, bad_argument)
-Json patch_rules_json(const std::vector<surfmesh::PatchSurfaceOptions>& rules);
-std::vector<surfmesh::PatchSurfaceOptions> patch_rules_of_json(const Json& list);
 
 /// Returns the options of `sterna surface`, and of `sterna mesh` of a model, except those of the volume. The arguments must outlive the table.
 OptionTable model_surface_options(surfmesh::SurfaceMeshOptions& surface, ReadCadOptions& reading);

@@ -30,12 +30,12 @@ struct ModelValue {
   bool is_as_described = false;         ///< the model, read from a file, is exactly make_components(description)
   std::vector<InputFile> inputs;
   std::string report;  ///< lines about how the model was read or made; may be empty
-  std::vector<surfmesh::PatchSurfaceOptions> sizes =
+  std::vector<Rule> sizes =
       {};  ///< size rules by face name, as given to the verb that made the model; they come before the user's rules if a face has the name
-  std::vector<volmesh::PatchRule> layers = {};  ///< layer rules by face name, as given to the verb that made the model; volume_mesh takes them over
-  std::vector<ModelPart> parts = {};            ///< parts in the order of the model; empty: one part, at its location. Code that replaces faces must clear it
-  std::vector<std::string> through = {};        ///< for a tunnel: patterns of names of components or faces that may pass through its walls
-  Provenance provenance = {};                   ///< key of its inputs, for caches
+  std::vector<Rule> layers = {};          ///< layer rules by face name, as given to the verb that made the model; volume_mesh takes them over
+  std::vector<ModelPart> parts = {};      ///< parts in the order of the model; empty: one part, at its location. Code that replaces faces must clear it
+  std::vector<std::string> through = {};  ///< for a tunnel: patterns of names of components or faces that may pass through its walls
+  Provenance provenance = {};             ///< key of its inputs, for caches
 };
 
 /// Returns true if the name is that of a file with a model: CAD, .smx or (CPACS) .xml.

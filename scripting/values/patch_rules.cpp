@@ -1,29 +1,31 @@
 #include "scripting/values/patch_rules.h"
 
 #include <algorithm>
+#include <iterator>
 
 #include "geom/base/error.h"
 #include "geom/base/glob.h"
 #include "scripting/lua/verb_tools.h"
 #include "scripting/values/model_surface.h"
 #include "scripting/values/typed_number.h"
+#include "surfmesh/model/size_rules.h"
+#include "volmesh/case/layer_rules.h"
 #include "volmesh/envelope/patch_layers.h"
 
 namespace sterna::scripting {
 namespace {
 
-/// Reads one entry of `patches`; notes problems.
-void read_rule(const std::string& names, const ScriptValue& value, std::string_view example, TableReader& reader, const AddRule& add) {
-  const std::string where = "patches[\"" + names + "\"]";
+/// Reads the options of one entry of `patches`; notes problems.
+void read_rule(const ScriptValue& value, std::string_view example, OptionsOfRule options, TableReader& reader, Rule& rule) {
+  const std::string where = "patches[\"" + rule.names + "\"]";
   const auto* table = std::get_if<TableHandle>(&value);
   if (!table || (*table)->fields.empty()) {
     reader.add_problem(where + ": expected a table with options of these patches, such as { " + std::string(example) + " }, not " +
                        std::string(table ? "a table without names" : type_text(value)));
     return;
   }
-  const OptionTable schema = add(names);
   TableReader entries(**table, where);
-  entries.read_options(schema);
+  entries.read_options(options(rule));
   try {
     entries.finish();
   } catch (const Error& error) {
@@ -31,18 +33,40 @@ void read_rule(const std::string& names, const ScriptValue& value, std::string_v
   }
 }
 
+/// Creates the rules of a list of objects that rules_json() wrote.
+std::vector<Rule> rules_of_json(const Json& list, std::string_view attempted, OptionsOfRule options) {
+  const auto refuse = [&] {
+    throw Error(
+        {.code = ErrorCode::file_malformed, .attempted = std::string(attempted), .problem = "expected a list of rules with names of patches and options"});
+  };
+  if (!list.is_array()) refuse();
+  std::vector<Rule> rules;
+  for (const Json& entry : list) {
+    if (!entry.is_object() || !entry.contains("names") || !entry["names"].is_string()) refuse();
+    Json values = entry;
+    values.erase("names");
+    for (const Json& value : values)
+      if (!value.is_primitive() || value.is_null()) refuse();
+    set_value_from_json(options(rules.emplace_back(Rule{.names = entry["names"].get<std::string>(), .options = {}})), values.dump(), attempted);
+  }
+  return rules;
+}
+
 }  // namespace
 
-void read_patch_rules(TableReader& reader, std::string_view example, const AddRule& add) {
+std::vector<Rule> read_patch_rules(TableReader& reader, std::string_view example, OptionsOfRule options) {
   const ScriptValue* value = reader.field("patches");
-  if (!value) return;
+  if (!value) return {};
   const auto* table = std::get_if<TableHandle>(value);
   if (!table || !(*table)->items.empty() || !(*table)->other_keys.empty()) {
     reader.add_problem("patches: expected a table with names of patches as keys, { [\"wing*\"] = { " + std::string(example) + " } }" +
                        (table ? "; the keys are strings" : ", not " + std::string(type_text(*value))));
-    return;
+    return {};
   }
-  for (const auto& [names, entry] : (*table)->fields) read_rule(names, entry, example, reader, add);
+  std::vector<Rule> rules;
+  for (const auto& [names, entry] : (*table)->fields) read_rule(entry, example, options, reader, rules.emplace_back(Rule{.names = names, .options = {}}));
+  sort_by_pattern(rules);
+  return rules;
 }
 
 bool is_default(const Option& option) {
@@ -51,55 +75,47 @@ bool is_default(const Option& option) {
   return value == option.default_value;
 }
 
-OptionTable patch_rule_options(volmesh::PatchRule& rule) {
-  OptionTable table = sterna::options_of(rule);
-  std::erase_if(table, [](const Option& option) { return option.name == "names"; });  // the key of the entry
+OptionTable size_rule_options(Rule& rule) { return with_edge_tables(surfmesh::size_rule_options(rule)); }
+
+OptionTable surface_and_layer_options(Rule& rule) {
+  OptionTable table = size_rule_options(rule);
+  for (Option& option : volmesh::layer_rule_options(rule)) table.push_back(std::move(option));
   return table;
 }
 
-OptionTable surface_and_layer_options(surfmesh::PatchSurfaceOptions& sizes, volmesh::PatchRule& layers) {
-  OptionTable table = patch_rule_options(sizes);
-  for (Option& option : patch_rule_options(layers)) table.push_back(std::move(option));
-  return table;
+std::vector<Rule> rules_of_step(std::vector<Rule> rules, OptionsOfRule options) {
+  for (Rule& rule : rules) {
+    const OptionTable table = options(rule);
+    std::erase_if(rule.options, [&](const auto& entry) { return std::ranges::find(table, entry.first, &Option::name) == table.end(); });
+  }
+  return rules;
 }
 
-void keep_set_rules(std::vector<volmesh::PatchRule>& rules) {
-  std::erase_if(rules, [](volmesh::PatchRule& rule) { return std::ranges::all_of(patch_rule_options(rule), is_default); });
+void keep_set_rules(std::vector<Rule>& rules) {
+  std::erase_if(rules, [](const Rule& rule) { return rule.options.empty(); });
 }
 
-void add_layer_rules(const std::vector<volmesh::PatchRule>& rules, SurfaceValue& surface) {
+void add_layer_rules(const std::vector<Rule>& rules, SurfaceValue& surface) {
   volmesh::apply_patch_kinds(surface.mesh, rules);
   surface.layers.insert(surface.layers.end(), rules.begin(), rules.end());
 }
 
 std::string layer_rules_help() {
-  volmesh::PatchRule rule;
+  Rule rule;
   return "patches = { [\"tunnel*\"] = { ... } }: options of patches with matching names; of two matching patterns the one with more letters applies:\n" +
-         options_help(patch_rule_options(rule));
+         options_help(volmesh::layer_rule_options(rule));
 }
 
-std::vector<volmesh::PatchRule> read_layer_rules(TableReader& reader) {
-  std::vector<volmesh::PatchRule> rules;
-  read_patch_rules(reader, "layers = 20, first_height = 2e-5", [&](const std::string& names) {
-    rules.push_back({.names = names});
-    return patch_rule_options(rules.back());
-  });
-  sort_by_pattern(rules);
-  return rules;
-}
+std::vector<Rule> read_layer_rules(TableReader& reader) { return read_patch_rules(reader, "layers = 20, first_height = 2e-5", volmesh::layer_rule_options); }
 
-std::vector<volmesh::PatchRule> layer_rules_of(const std::vector<std::pair<std::string, std::vector<std::pair<std::string, std::string>>>>& given,
-                                               std::vector<surfmesh::PatchSurfaceOptions>* sizes) {
-  std::vector<volmesh::PatchRule> rules;
+std::vector<Rule> layer_rules_of(const std::vector<std::pair<std::string, std::vector<std::pair<std::string, std::string>>>>& given, std::vector<Rule>* sizes) {
+  std::vector<Rule> rules;
   for (const auto& [names, options] : given) {
-    rules.push_back({.names = names});
-    surfmesh::PatchSurfaceOptions size{.names = names};
-    if (sizes) sizes->push_back(size);
-    const OptionTable table = sizes ? surface_and_layer_options(sizes->back(), rules.back()) : patch_rule_options(rules.back());
+    Rule& rule = rules.emplace_back(Rule{.names = names, .options = {}});
+    const OptionTable table = sizes ? surface_and_layer_options(rule) : volmesh::layer_rule_options(rule), of_surface = size_rule_options(rule);
     const std::string attempted = "--patch \"" + names + "\"";
     for (const auto& [name, text] : options) {
-      if (const OptionTable of_surface = patch_rule_options(size);
-          !sizes && std::ranges::find(table, name, &Option::name) == table.end() && std::ranges::find(of_surface, name, &Option::name) != of_surface.end())
+      if (!sizes && std::ranges::find(table, name, &Option::name) == table.end() && std::ranges::find(of_surface, name, &Option::name) != of_surface.end())
         throw Error({.code = ErrorCode::bad_argument,
                      .attempted = attempted,
                      .problem = name + " is a size of triangles, but the triangles of a triangulation are kept",
@@ -108,50 +124,31 @@ std::vector<volmesh::PatchRule> layer_rules_of(const std::vector<std::pair<std::
     }
   }
   if (sizes) {
-    keep_set_rules(rules);
+    std::ranges::move(rules_of_step(rules, size_rule_options), std::back_inserter(*sizes));
     sort_by_pattern(*sizes);
+    rules = rules_of_step(std::move(rules), volmesh::layer_rule_options);
+    keep_set_rules(rules);
   }
   sort_by_pattern(rules);
   return rules;
 }
 
-Json rule_json(const std::string& names, const OptionTable& options) {
-  OptionTable changed = options;
-  std::erase_if(changed, is_default);
-  Json entry = {{"names", names}};
-  entry.update(Json::parse(value_to_json(changed)));
-  return entry;
-}
-
-void read_rules_json(const Json& list, std::string_view attempted, const AddRule& add) {
-  const auto refuse = [&] {
-    throw Error(
-        {.code = ErrorCode::file_malformed, .attempted = std::string(attempted), .problem = "expected a list of rules with names of patches and options"});
-  };
-  if (!list.is_array()) refuse();
-  for (const Json& entry : list) {
-    if (!entry.is_object() || !entry.contains("names") || !entry["names"].is_string()) refuse();
-    Json values = entry;
-    values.erase("names");
-    for (const Json& value : values)
-      if (!value.is_primitive() || value.is_null()) refuse();
-    set_value_from_json(add(entry["names"].get<std::string>()), values.dump(), attempted);
-  }
-}
-
-Json layer_rules_json(const std::vector<volmesh::PatchRule>& rules) {
+Json rules_json(const std::vector<Rule>& rules) {
   Json list = Json::array();
-  for (volmesh::PatchRule rule : rules) list.push_back(rule_json(rule.names, patch_rule_options(rule)));
+  for (Rule rule : rules) {
+    OptionTable set = surface_and_layer_options(rule);
+    std::erase_if(set, is_default);
+    Json entry = {{"names", rule.names}};
+    entry.update(Json::parse(value_to_json(set)));
+    list.push_back(std::move(entry));
+  }
   return list;
 }
 
-std::vector<volmesh::PatchRule> layer_rules_of_json(const Json& list) {
-  std::vector<volmesh::PatchRule> rules;
-  read_rules_json(list, "reading the rules for patches of a volume mesh", [&](const std::string& names) {
-    rules.push_back({.names = names});
-    return patch_rule_options(rules.back());
-  });
-  return rules;
+std::vector<Rule> size_rules_of_json(const Json& list) { return rules_of_json(list, "reading the options of a surface mesh", size_rule_options); }
+
+std::vector<Rule> layer_rules_of_json(const Json& list) {
+  return rules_of_json(list, "reading the rules for patches of a volume mesh", volmesh::layer_rule_options);
 }
 
 }  // namespace sterna::scripting

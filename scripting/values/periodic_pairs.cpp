@@ -4,12 +4,9 @@
 
 #include "geom/base/error.h"
 #include "scripting/lua/verb_tools.h"
-#include "surfmesh/model/periodic_borders.h"
 
 namespace sterna::scripting {
 namespace {
-
-using volmesh::PeriodicNames;
 
 constexpr std::string_view k_expected = "expected the names of two patches, such as { \"left\", \"right\" }";
 
@@ -38,18 +35,6 @@ std::vector<PeriodicNames> read_periodic(TableReader& reader) {
     if (pair) pairs.push_back(*pair);
     else reader.add_problem("periodic, entry " + std::to_string(i + 1) + ": " + std::string(k_expected));
   }
-  return pairs;
-}
-
-std::string periodic_text(const std::vector<PeriodicNames>& pairs) {
-  std::vector<surfmesh::SidePair> sides;
-  for (const PeriodicNames& pair : pairs) sides.push_back({pair.first, pair.second});
-  return surfmesh::side_pairs_text(sides);
-}
-
-std::vector<PeriodicNames> periodic_of_surface(const std::string& text) {
-  std::vector<PeriodicNames> pairs;
-  for (const surfmesh::SidePair& pair : surfmesh::side_pairs(text)) pairs.push_back({pair[0], pair[1]});
   return pairs;
 }
 

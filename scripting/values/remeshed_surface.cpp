@@ -61,7 +61,7 @@ std::optional<ContentKey> remesh_key(const SurfaceValue& wall, const RemeshRecip
 SurfaceValue remeshed_if(const SurfaceValue& wall, const RemeshRecipe& recipe, const std::function<double(const Point&)>& size,
                          const surfmesh::RemeshDemand& demand, const RunContext& context, const Reuse& reuse) {
   SurfaceRecipe requested;
-  requested.options.growth = recipe.options.growth;
+  requested.options.sizes.growth = recipe.options.sizes.growth;
   requested.sources = recipe.sources;
   const surfmesh::SpaceSizes sizes = space_sizes(requested, size);
   surfmesh::RemeshResult result = cached<surfmesh::RemeshResult>(reuse, "remesh", "", remesh_key(wall, recipe, size), context, [&] {
@@ -107,10 +107,10 @@ SurfaceValue without_slivers(const SurfaceValue& wall, const RemeshRecipe& recip
   RemeshRecipe bounded = recipe;
   const std::size_t n = wall.mesh.n_triangles();
   const double share_before = static_cast<double>(before.n) / static_cast<double>(n);
-  const bool is_own_budget = recipe.options.max_triangles == surfmesh::RemeshOptions{}.max_triangles;
+  const bool is_own_budget = recipe.options.sizes.max_triangles == surfmesh::SurfaceSizeOptions{}.max_triangles;
   if (is_own_budget)
-    bounded.options.max_triangles =
-        static_cast<int>(std::min<std::size_t>(static_cast<std::size_t>(recipe.options.max_triangles), std::max(k_many_times * n, k_few_triangles)));
+    bounded.options.sizes.max_triangles =
+        static_cast<int>(std::min<std::size_t>(static_cast<std::size_t>(recipe.options.sizes.max_triangles), std::max(k_many_times * n, k_few_triangles)));
   const surfmesh::RemeshDemand demand{.most_slivers = k_fewer_slivers * share_before,
                                       .least_angle = std::min(before.least_angle, surfmesh::k_worst_sliver_angle),
                                       .largest_distance = k_largest_distance,
@@ -128,7 +128,7 @@ SurfaceValue without_slivers(const SurfaceValue& wall, const RemeshRecipe& recip
   std::span<const RemeshAttempt> others;
   std::size_t next = 0;
   for (RemeshAttempt attempt = k_first;;) {
-    bounded.options.refinement = attempt.refinement * recipe.options.refinement;
+    bounded.options.sizes.refinement = attempt.refinement * recipe.options.sizes.refinement;
     bounded.options.smooth = attempt.is_smooth && recipe.options.smooth;
     std::string problem = "auto: the result of remesh does not meet the requirements";
     try {

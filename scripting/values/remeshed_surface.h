@@ -14,8 +14,8 @@ namespace sterna::scripting {
 /// The request to remesh.
 struct RemeshRecipe {
   surfmesh::RemeshOptions options;
-  std::vector<surfmesh::PatchSurfaceOptions> patches;  ///< rules of patches; the last rule that matches a patch applies
-  std::vector<volmesh::SizeSource> sources;            ///< sources in space
+  std::vector<Rule> patches;                 ///< rules of patches; the last rule that matches a patch applies
+  std::vector<volmesh::SizeSource> sources;  ///< sources in space
 };
 
 /// Returns the wall with new triangles; its inputs, its rules for layers and the kinds of its patches are kept. The changes are in the report's messages and

@@ -32,10 +32,10 @@ std::string repair_json(const surfmesh::RepairReport& report);
 struct AutoSurface {
   surfmesh::StitchOptions stitching = {};
   surfmesh::RepairOptions repair = {};
-  surfmesh::WrapOptions wrap = {};                    ///< its unit, fluid and split_angle are those of `stitching`
-  ReadCadOptions reading = {};                        ///< for models
-  SurfaceRecipe recipe = {};                          ///< for models
-  std::vector<volmesh::PeriodicNames> periodic = {};  ///< pairs of sides of the volume; pairs of faces of models are meshed identically
+  surfmesh::WrapOptions wrap = {};           ///< its unit, fluid and split_angle are those of `stitching`
+  ReadCadOptions reading = {};               ///< for models
+  SurfaceRecipe recipe = {};                 ///< for models
+  std::vector<PeriodicNames> periodic = {};  ///< pairs of sides of the volume; pairs of faces of models are meshed identically
   surfmesh::RemeshOptions remesh = {};
 };
 

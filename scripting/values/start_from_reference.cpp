@@ -76,7 +76,7 @@ std::string objection(const KeptPart& like, const PartTask& task) {
   if (KeyMaker("rules").add(like.patches).key() != KeyMaker("rules").add(task.patches).key()) return "options of patches differ from those of the reference";
   if (like.has_local_sizes || task.has_local_sizes) return "sources and size functions set edge lengths by the part's present position";
   if (!task.options.periodic.empty()) return "borders of periodic sides need identical nodes at their present position";
-  if (task.options.gap_cells > 0.0) return "gap_cells sets edge lengths by the present neighbours";
+  if (task.options.sizes.gap_cells > 0.0) return "gap_cells sets edge lengths by the present neighbours";
   return {};
 }
 

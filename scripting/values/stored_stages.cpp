@@ -118,24 +118,24 @@ Json stage_json(const volmesh::FilledStage& filled, std::int64_t n_wall_triangle
 
 /// Returns, for placed parts, the default limits of their layer thickness. They are based on the parts' own lengths, which do not change with their attitude or
 /// their neighbours.
-std::vector<volmesh::PatchRule> thickness_rules(const SurfaceValue& wall, const volmesh::MeshCase& options) {
-  std::vector<volmesh::PatchRule> rules;
+std::vector<Rule> thickness_rules(const SurfaceValue& wall, const volmesh::MeshCase& options) {
+  std::vector<Rule> rules;
   if (!is_automatic(options.envelope.max_thickness)) return rules;
   for (const volmesh::PlacedPart& part : wall.parts) {
     const double thickness = volmesh::k_default_thickness_share * body_length(*part.own);
     for (const Patch& patch : part.own->patches) {
       if (patch.kind != PatchKind::wall) continue;  // only walls carry layers
-      const auto known = std::ranges::find_if(rules, [&](const volmesh::PatchRule& rule) { return rule.names == patch.name; });
-      if (known == rules.end()) rules.push_back({.names = patch.name, .max_thickness = thickness});
-      else known->max_thickness = std::max(known->max_thickness, thickness);
+      const auto known = std::ranges::find_if(rules, [&](const Rule& rule) { return rule.names == patch.name; });
+      if (known == rules.end()) rules.push_back({.names = patch.name, .options = {{"max_thickness", thickness}}});
+      else known->options["max_thickness"] = std::max(value_or(*known, "max_thickness", thickness), thickness);
     }
   }
   return rules;
 }
 
 /// Returns the rules for patches: first defaults of placed parts, then rules of the makers of the wall, then rules of the user. Later rules win.
-std::vector<volmesh::PatchRule> rules_of(const SurfaceValue& wall, const volmesh::MeshCase& options) {
-  std::vector<volmesh::PatchRule> rules = thickness_rules(wall, options);
+std::vector<Rule> rules_of(const SurfaceValue& wall, const volmesh::MeshCase& options) {
+  std::vector<Rule> rules = thickness_rules(wall, options);
   rules.insert(rules.end(), wall.layers.begin(), wall.layers.end());
   rules.insert(rules.end(), options.patches.begin(), options.patches.end());
   return rules;
@@ -191,7 +191,7 @@ class StageJson {
     }
   }
 
-  std::vector<volmesh::PatchRule> patch_rules() const { return layer_rules_of_json(list("patch_rules")); }
+  std::vector<Rule> patch_rules() const { return layer_rules_of_json(list("patch_rules")); }
 
   volmesh::EnvelopeStep step() const {
     return json_.contains(Json::json_pointer("/stage/step")) ? volmesh::envelope_step_of(get<std::string>("/stage/step")) : volmesh::EnvelopeStep::finished;
@@ -226,7 +226,7 @@ class StageJson {
     return values_of<T>(list(name));
   }
 
-  std::vector<volmesh::PeriodicNames> periodic() const { return periodic_of_json(list("periodic")); }
+  std::vector<PeriodicNames> periodic() const { return periodic_of_json(list("periodic")); }
 
   /// Returns the report on slivers.
   volmesh::SliverReport slivers() const {
@@ -369,16 +369,16 @@ OptionTable finish_options(volmesh::MeshCase& options) { return volmesh::options
 namespace {
 
 /// Returns the periodic sides that the mesher of the wall meshed identically, if the wall still has its triangles.
-std::vector<volmesh::PeriodicNames> periodic_of_wall(const SurfaceValue& wall) {
+std::vector<PeriodicNames> periodic_of_wall(const SurfaceValue& wall) {
   const SurfaceRecipe* const recipe = last_of<SurfaceRecipe>(wall.history);
   if (!recipe || last_of<surfmesh::RemeshOptions>(wall.history) || last_of<surfmesh::RepairOptions>(wall.history) ||
       last_of<surfmesh::WrapOptions>(wall.history) || last_of<UnionOptions>(wall.history))
     return {};
-  std::vector<volmesh::PeriodicNames> pairs = periodic_of_surface(recipe->options.periodic);
+  std::vector<PeriodicNames> pairs = recipe->options.periodic;
   const auto has = [&](const std::string& name) {
     return surfmesh::is_open_plane(name) || std::ranges::any_of(wall.mesh.patches, [&](const Patch& patch) { return patch.name == name; });
   };
-  std::erase_if(pairs, [&](const volmesh::PeriodicNames& pair) { return !has(pair.first) || !has(pair.second); });
+  std::erase_if(pairs, [&](const PeriodicNames& pair) { return !has(pair.first) || !has(pair.second); });
   return pairs;
 }
 

@@ -43,14 +43,14 @@ OptionTable history_options(SurfaceHistory& history) {
 }
 
 void add_recipe(Json& json, const SurfaceRecipe& recipe) {
-  if (!recipe.patches.empty()) json["surface_patches"] = patch_rules_json(recipe.patches);
+  if (!recipe.patches.empty()) json["surface_patches"] = rules_json(recipe.patches);
   if (recipe.sources.empty() && !recipe.has_function) return;
   json["surface_sources"] = values_json(recipe.sources);
   if (recipe.has_function) json["surface_sources"].push_back(function_entry());
 }
 
 void read_recipe(const Json& json, SurfaceRecipe& recipe) {
-  if (json.contains("surface_patches")) recipe.patches = patch_rules_of_json(json.at("surface_patches"));
+  if (json.contains("surface_patches")) recipe.patches = size_rules_of_json(json.at("surface_patches"));
   Json sources = json.value("surface_sources", Json::array());
   if (!sources.empty() && sources.back() == function_entry()) {
     recipe.has_function = true;

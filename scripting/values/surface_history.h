@@ -5,6 +5,7 @@
 #include <variant>
 #include <vector>
 
+#include "geom/base/rules.h"
 #include "geom/boolean/union_meshes.h"
 #include "scripting/values/option_json.h"
 #include "surfmesh/model/surface_mesh.h"
@@ -18,9 +19,9 @@ namespace sterna::scripting {
 /// The request to surface_mesh.
 struct SurfaceRecipe {
   surfmesh::SurfaceMeshOptions options;
-  std::vector<surfmesh::PatchSurfaceOptions> patches;  ///< rules of faces; the last rule that matches a face applies
-  std::vector<volmesh::SizeSource> sources;            ///< sources in space
-  bool has_function = false;                           ///< a function of the location also limits the edges
+  std::vector<Rule> patches;                 ///< rules of faces; the last rule that matches a face applies
+  std::vector<volmesh::SizeSource> sources;  ///< sources in space
+  bool has_function = false;                 ///< a function of the location also limits the edges
 };
 
 /// A step that made or changed a surface.

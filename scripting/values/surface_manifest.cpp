@@ -117,7 +117,7 @@ std::string surface_manifest_json(const SurfaceValue& surface, const std::filesy
     surfmesh::SurfaceMeshOptions options = recipe ? recipe->options : surfmesh::SurfaceMeshOptions{};
     json["options"] = options_json(sterna::options_of(options));
   }
-  if (recipe && !recipe->patches.empty()) json["surface_patches"] = patch_rules_json(recipe->patches);
+  if (recipe && !recipe->patches.empty()) json["surface_patches"] = rules_json(recipe->patches);
   json["patches"] = Json::array();
   Column<PatchId, std::int64_t> n_triangles(surface.mesh.patches.size(), 0);
   for (const PatchId patch : surface.mesh.triangle_patch) ++n_triangles[patch];
@@ -125,7 +125,7 @@ std::string surface_manifest_json(const SurfaceValue& surface, const std::filesy
     json["patches"].push_back(
         {{"name", surface.mesh.patches[patch].name}, {"kind", to_string(surface.mesh.patches[patch].kind)}, {"triangles", n_triangles[patch]}});
   add_changes(json, surface.history);
-  if (!surface.layers.empty()) json["layers"] = layer_rules_json(surface.layers);
+  if (!surface.layers.empty()) json["layers"] = rules_json(surface.layers);
   json["mesh"] = {{"vertices", surface.mesh.n_vertices()},
                   {"triangles", surface.mesh.n_triangles()},
                   {"closed", surface.report.is_closed},

@@ -27,7 +27,7 @@ struct KnownSurface {
   std::optional<double> smooth_angle;      ///< rad: SurfaceMeshReport::max_smooth_angle
   std::map<std::string, PatchKind> kinds;  ///< kinds of its patches by name: surface formats do not hold them
   bool encloses_fluid = false;             ///< the outermost part of the surface has inward normals
-  std::vector<volmesh::PatchRule> layers;  ///< SurfaceValue::layers
+  std::vector<Rule> layers;                ///< SurfaceValue::layers
   SurfaceHistory history;                  ///< changes and figures of SurfaceValue::history
 };
 /// Reads the manifest. Returns nothing if there is none. Returns nothing, with a warning, if it belongs to another state of the file (`hash` differs).

@@ -21,7 +21,7 @@
 #include "scripting/values/write_options.h"
 #include "surfmesh/model/model_wall.h"
 #include "surfmesh/stitch/stitch_surface.h"
-#include "volmesh/case/patch_rule.h"
+#include "volmesh/case/layer_rules.h"
 #include "volmesh/case/placed_part.h"
 #include "volmesh/volume_mesh.h"
 
@@ -48,7 +48,7 @@ struct SurfaceValue {
   SurfaceHistory history = {};
   std::optional<surfmesh::SurfaceMeshReport> mesh_report = {};  ///< set for a surface made by surface_mesh, unless it was read from a file
   std::optional<double> smooth_angle = {};  ///< rad; largest turn where the surface is smooth, from surface_mesh or from the manifest beside the file
-  std::vector<volmesh::PatchRule> layers =
+  std::vector<Rule> layers =
       {};  ///< layer rules for patches, set by the makers of the model, in order. The last rule for a name applies, and the user's own rules come after these
   TrueSurface true_surface = {};                ///< set for a surface made by surface_mesh in this run
   std::vector<volmesh::PlacedPart> parts = {};  ///< parts meshed or read elsewhere and moved to their locations; in ascending order of their triangles

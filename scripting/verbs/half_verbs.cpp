@@ -86,7 +86,7 @@ SurfaceValue half_surface(const SurfaceValue& surface, const HalfOptions& option
   SurfaceValue half = surface;
   replace_mesh(half, half_of(surface.mesh, options, context));
   half.report.is_closed = false;
-  std::erase_if(half.layers, [&](const volmesh::PatchRule& rule) {  // removes rules of patches that are on the other side only
+  std::erase_if(half.layers, [&](const Rule& rule) {  // removes rules of patches that are on the other side only
     return std::none_of(half.mesh.patches.begin(), half.mesh.patches.end(), [&](const Patch& patch) { return matches_glob(patch.name, rule.names); });
   });
   note_half(half, surface.mesh, options, context);

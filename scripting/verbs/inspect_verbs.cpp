@@ -158,7 +158,7 @@ ScriptValue inspect(const ScriptCall& call) {
   const std::filesystem::path output = output_entry(reader, call, "output", "the name of a .vtu or .png file");
   for (const OptionTable* part : {&limits, &surface}) apply_overrides(call, *part);
   complete_volume_case(reader, call, volume, made);
-  if (reader.is_given("family", "refinement")) recipe.options.refinement = made.options.family.refinement;  // as `sterna mesh`
+  if (reader.is_given("family", "refinement")) recipe.options.sizes.refinement = made.options.family.refinement;  // as `sterna mesh`
   if (made.first_heights && !given.surface) reader.add_problem("first_height: a function needs a surface as the first entry (from read_surface), not a file");
   reader.finish();
   if (!output.empty()) require_inspection_output(output);

@@ -241,9 +241,9 @@ ScriptValue rename_model(const ScriptCall& call) {
   }
   reader.finish();
   ModelValue renamed = *handle;
-  for (surfmesh::PatchSurfaceOptions& rule : renamed.sizes)
+  for (Rule& rule : renamed.sizes)
     if (const auto field = table.fields.find(rule.names); field != table.fields.end()) rule.names = std::get<std::string>(field->second);
-  for (volmesh::PatchRule& rule : renamed.layers)
+  for (Rule& rule : renamed.layers)
     if (const auto field = table.fields.find(rule.names); field != table.fields.end()) rule.names = std::get<std::string>(field->second);
   renamed.model = std::move(model);
   return without_description(std::move(renamed), "rename");

@@ -27,20 +27,14 @@ OptionTable without_pairs(OptionTable table) {
 
 /// Rules of patches: sizes of their triangles, and layer options for volume_mesh.
 struct SurfaceRules {
-  std::vector<surfmesh::PatchSurfaceOptions> sizes;
-  std::vector<volmesh::PatchRule> layers;
+  std::vector<Rule> sizes;
+  std::vector<Rule> layers;
 };
 
 SurfaceRules read_rules(TableReader& reader) {
-  SurfaceRules rules;
-  read_patch_rules(reader, "max_edge = 0.1", [&](const std::string& names) {
-    rules.sizes.push_back({.names = names});
-    rules.layers.push_back({.names = names});
-    return surface_and_layer_options(rules.sizes.back(), rules.layers.back());
-  });
+  const std::vector<Rule> given = read_patch_rules(reader, "max_edge = 0.1", surface_and_layer_options);
+  SurfaceRules rules{.sizes = rules_of_step(given, size_rule_options), .layers = rules_of_step(given, volmesh::layer_rule_options)};
   keep_set_rules(rules.layers);
-  sort_by_pattern(rules.sizes);
-  sort_by_pattern(rules.layers);
   return rules;
 }
 
@@ -80,7 +74,7 @@ ScriptValue make_surface_mesh(const ScriptCall& call) {
   SurfaceRules rules = read_rules(reader);
   recipe.patches = std::move(rules.sizes);
   recipe.sources = read_sources(reader, call);
-  recipe.options.periodic = periodic_text(read_periodic(reader));
+  recipe.options.periodic = read_periodic(reader);
   const std::function<double(const Point&)> size = read_size_function(reader);
   apply_overrides(call, sterna::options_of(recipe.options));
   reader.finish();
@@ -91,11 +85,10 @@ ScriptValue make_surface_mesh(const ScriptCall& call) {
 
 std::string surface_mesh_help() {
   surfmesh::SurfaceMeshOptions options;
-  surfmesh::PatchSurfaceOptions rule;
-  volmesh::PatchRule layers;
+  Rule rule;
   return options_help(without_pairs(sterna::options_of(options))) +
          "patches = { [\"wing*\"] = { ... } }: options of faces with matching names; of two matching patterns the one with more letters applies:\n" +
-         options_help(surface_and_layer_options(rule, layers)) +
+         options_help(surface_and_layer_options(rule)) +
          "sources = { line{ {0,0,0}, {8,0,0}, size = 0.02 }, ... }: regions of short edges. size = function(x, y, z) return 0.1 end: largest edge length by "
          "location. periodic = { { \"left\", \"right\" }, ... }: pairs of flat faces, each the translated image of the other; their borders get identical "
          "nodes, and volume_mesh makes them periodic\n";

@@ -16,6 +16,7 @@
 #include "scripting/values/fluid_model.h"
 #include "scripting/values/geometry_tools.h"
 #include "scripting/values/model_surface.h"
+#include "scripting/values/patch_rules.h"
 #include "scripting/verbs/surface_motion.h"
 
 namespace sterna::scripting {
@@ -77,10 +78,11 @@ std::set<std::string> names_of_role(const Model& model, FaceRole role) {
   return names;
 }
 
-bool is_any(const volmesh::PatchRule& rule) {
-  return rule.layers >= 0 || !is_automatic(rule.first_height) || !is_automatic(rule.max_growth) || !is_automatic(rule.max_thickness) ||
-         !is_automatic(rule.blend) || !is_automatic(rule.total_height) || rule.open_ridges != volmesh::PatchRule{}.open_ridges ||
-         rule.truncate != volmesh::PatchRule{}.truncate;
+/// Returns the layer options of the walls of a tunnel. Their kind is read apart from these options. `rule` must outlive the table.
+OptionTable tunnel_layer_options(Rule& rule) {
+  OptionTable table = volmesh::layer_rule_options(rule);
+  std::erase_if(table, [](const Option& option) { return option.name == "kind"; });
+  return table;
 }
 
 /// Sets the size of all patches by a rule that rules of single patches override.
@@ -91,21 +93,17 @@ void add_size(const TunnelSizeOptions& options, ModelValue& tunnel) {
   const double size = is_automatic(options.max_edge) ? std::min({sides.x, sides.y, sides.z}) / k_edges_across : options.max_edge;
   std::set<std::string> names;
   for (const ModelFace& face : tunnel.model.faces) names.insert(face.name);
-  for (const std::string& name : names) tunnel.sizes.push_back({.names = name, .max_edge = size});
+  for (const std::string& name : names) tunnel.sizes.push_back({.names = name, .options = {{"max_edge", size}}});
 }
 
 /// Reads the value of walls = ... or of an entry of patches = {...}: the kind of patches, or a table with kind, sizes and layers. Notes problems.
 void read_patch(const ScriptValue& value, const std::string& key, const std::set<std::string>& names, ModelValue& tunnel, TableReader& reader) {
   std::optional<PatchKind> kind;
-  surfmesh::PatchSurfaceOptions sizes;
-  volmesh::PatchRule layer;
+  Rule sizes, layer;
   if (const auto* table = std::get_if<TableHandle>(&value)) {
-    const OptionTable size_options = patch_rule_options(sizes);
-    OptionTable layer_options = sterna::options_of(layer);
-    std::erase_if(layer_options, [](const Option& option) { return option.name == "names" || option.name == "kind"; });
     TableReader entries(**table, key);
-    entries.read_options(size_options);
-    entries.read_options(layer_options);
+    entries.read_options(size_rule_options(sizes));
+    entries.read_options(tunnel_layer_options(layer));
     if (const ScriptValue* given = entries.field("kind")) kind = read_patch_kind(*given, "kind", entries);
     try {
       entries.finish();
@@ -117,20 +115,20 @@ void read_patch(const ScriptValue& value, const std::string& key, const std::set
     kind = read_patch_kind(value, key, reader);
   }
   // A table with layers makes a side of a tunnel a wall, even if a less specific entry gives another kind. A kind beside the layers is kept.
-  const bool has_layers = layer.layers > 0;
-  if (kind && *kind != PatchKind::wall && is_any(layer) && layer.layers != 0)
+  const int n_layers = value_or(layer, "layers", k_automatic_count);
+  if (kind && *kind != PatchKind::wall && !layer.options.empty() && n_layers != 0)
     reader.add_problem(key + ": only walls have layers, and this patch is of kind " + std::string(to_string(*kind)) +
                        ": leave out the layer options, or set kind = \"wall\"");
   for (const std::string& name : names) {
-    if (kind && *kind != PatchKind::wall) std::erase_if(tunnel.layers, [&](const volmesh::PatchRule& rule) { return rule.names == name; });
+    if (kind && *kind != PatchKind::wall) std::erase_if(tunnel.layers, [&](const Rule& rule) { return rule.names == name; });
     sizes.names = layer.names = name;
-    if (surfmesh::PatchSurfaceOptions none{.names = name}; patch_rules_json({sizes}) != patch_rules_json({none})) tunnel.sizes.push_back(sizes);
-    if (is_any(layer)) tunnel.layers.push_back(layer);
+    if (!sizes.options.empty()) tunnel.sizes.push_back(sizes);
+    if (!layer.options.empty()) tunnel.layers.push_back(layer);
   }
   for (ModelFace& face : tunnel.model.faces) {
     if (!names.contains(face.name)) continue;
     if (kind) face.kind = kind;
-    else if (has_layers && face.role == FaceRole::wall) face.kind = PatchKind::wall;
+    else if (n_layers > 0 && face.role == FaceRole::wall) face.kind = PatchKind::wall;
   }
 }
 
@@ -243,16 +241,13 @@ ScriptValue make_test_section_verb(const ScriptCall& call) {
 
 std::string test_section_help() {
   TestSectionOptions options;
-  surfmesh::PatchSurfaceOptions sizes;
   TunnelSizeOptions size;
-  volmesh::PatchRule layer;
-  OptionTable layer_options = sterna::options_of(layer);
-  std::erase_if(layer_options, [](const Option& option) { return option.name == "names" || option.name == "kind"; });
+  Rule rule;
   return options_help(sterna::options_of(options)) + options_help(sterna::options_of(size)) +
          "position = {x, y, z}: position of the model, instead of the origin. walls, floor, ceiling, left, right = \"slip\", \"symmetry\", \"wall\" or a table "
          "(with layers the side becomes a wall); patches = { [\"outlet*\"] = { ... } } for any patch:\n  kind: wall, slip, symmetry, inflow, outflow, "
          "farfield, interface\n" +
-         options_help(patch_rule_options(sizes)) + options_help(layer_options) +
+         options_help(size_rule_options(rule)) + options_help(tunnel_layer_options(rule)) +
          "through = \"strut*\" or { \"strut*\", \"wing\" }: components or faces, by name, that pass through the walls and are cut off there; stings made "
          "by\nsting{} always may. Any other part outside the tunnel is an error\ntest_section{ model, inflow = \"in*\", outflow = \"out*\", walls = ... }: "
          "uses a closed solid as the tunnel\n";

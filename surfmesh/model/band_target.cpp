@@ -3,8 +3,6 @@
 #include <algorithm>
 #include <cmath>
 
-#include "geom/base/glob.h"
-
 namespace sterna::surfmesh {
 namespace {
 
@@ -13,10 +11,12 @@ constexpr double k_default_stretch = 10.0;
 
 double least_said(double a, double b) { return is_automatic(a) ? b : is_automatic(b) ? a : std::min(a, b); }
 
-bool overrule(double& value, double said) {
-  if (is_automatic(said)) return false;
-  value = said;
-  return true;
+/// Returns the pattern of the last rule that sets the first cell or the stretch; empty: no rule sets one of them.
+std::string deciding_rule(const std::string& name, std::span<const Rule> patches, const std::string& edge) {
+  const Rule* first = rule_for(name, patches, edge + "_chordwise");
+  const Rule* stretch = rule_for(name, patches, edge + "_stretch");
+  const Rule* last = !first || (stretch && stretch > first) ? stretch : first;
+  return last ? last->names : std::string();
 }
 
 }  // namespace
@@ -30,21 +30,15 @@ BandTarget both(const BandTarget& a, const BandTarget& b) {
   return {least_said(a.chordwise, b.chordwise), least_said(a.stretch, b.stretch), std::min(a.growth, b.growth), a.rule};
 }
 
-BandTargets band_targets(const std::string& name, BandTargets targets, double refinement, std::span<const PatchSurfaceOptions> patches) {
-  for (const PatchSurfaceOptions& rule : patches) {
-    if (!matches_glob(name, rule.names)) continue;
-    if (overrule(targets.leading.chordwise, rule.leading_edge_chordwise) | overrule(targets.leading.stretch, rule.leading_edge_stretch))
-      targets.leading.rule = rule.names;
-    if (overrule(targets.trailing.chordwise, rule.trailing_edge_chordwise) | overrule(targets.trailing.stretch, rule.trailing_edge_stretch))
-      targets.trailing.rule = rule.names;
-    overrule(targets.leading.growth, rule.leading_edge_growth);
-    overrule(targets.trailing.growth, rule.trailing_edge_growth);
-  }
+BandTargets band_targets(const std::string& name, const SurfaceSizeOptions& of_patch, std::span<const Rule> patches) {
+  const SurfaceSizeOptions& o = of_patch;
+  BandTargets targets{.leading = {o.leading_edge_chordwise, o.leading_edge_stretch, o.leading_edge_growth, deciding_rule(name, patches, "leading_edge")},
+                      .trailing = {o.trailing_edge_chordwise, o.trailing_edge_stretch, o.trailing_edge_growth, deciding_rule(name, patches, "trailing_edge")}};
   // The next mesh of a family: lengths are divided by the factor, so the number of cells is multiplied by it. Growth becomes the corresponding root
   // (docs/method/quality.md, "Mesh families").
   for (BandTarget* target : {&targets.leading, &targets.trailing}) {
-    target->chordwise /= refinement;
-    target->growth = std::pow(target->growth, 1.0 / refinement);
+    target->chordwise /= o.refinement;
+    target->growth = std::pow(target->growth, 1.0 / o.refinement);
   }
   return targets;
 }

@@ -29,20 +29,8 @@ struct BandTargets {
   BandTarget leading, trailing;
 };
 
-/// Returns the requirements of faces (patches) with this name. Rules override the options for all, member by member. Lengths and growth are those of the
-/// current member of the refinement family.
-template <class Options>
-BandTargets band_targets(const std::string& name, const Options& options, std::span<const PatchSurfaceOptions> patches);
-
-/// Applies the rules for this name to given requirements. \param refinement refinement factor of the current member of the refinement family
-BandTargets band_targets(const std::string& name, BandTargets targets, double refinement, std::span<const PatchSurfaceOptions> patches);
-
-template <class Options>
-BandTargets band_targets(const std::string& name, const Options& options, std::span<const PatchSurfaceOptions> patches) {
-  return band_targets(name,
-                      {{options.leading_edge_chordwise, options.leading_edge_stretch, options.leading_edge_growth, {}},
-                       {options.trailing_edge_chordwise, options.trailing_edge_stretch, options.trailing_edge_growth, {}}},
-                      options.refinement, patches);
-}
+/// Returns the requirements of a face (patch) with this name. Lengths and growth are those of the current member of the refinement family.
+/// \param of_patch size options of the patch (resolve()) \param patches rules, one of which may have set its rows
+BandTargets band_targets(const std::string& name, const SurfaceSizeOptions& of_patch, std::span<const Rule> patches);
 
 }  // namespace sterna::surfmesh

@@ -56,10 +56,10 @@ void check_estimate(const Model& model, const ModelSizes& sizes, const Column<Ed
     entries.push_back({n, f});
     total += n;
   }
-  if (total <= k_surely * options.max_triangles) return;
+  if (total <= k_surely * options.sizes.max_triangles) return;
   std::stable_sort(entries.begin(), entries.end(), [](const Entry& a, const Entry& b) { return a.n > b.n; });
   ErrorInfo info{.code = ErrorCode::overflow, .attempted = k_estimate_attempt};
-  info.problem = "the target sizes require about " + rounded(total) + " triangles; max_triangles is " + std::to_string(options.max_triangles);
+  info.problem = "the target sizes require about " + rounded(total) + " triangles; max_triangles is " + std::to_string(options.sizes.max_triangles);
   info.n_locations = static_cast<std::int64_t>(entries.size());
   for (std::size_t i = 0; i < std::min(k_shown_faces, entries.size()); ++i) {
     const FaceId f = entries[i].face;
@@ -77,14 +77,14 @@ void check_band_estimate(const Model& model, const WingBands& bands, const Colum
     if (!bands.edges[e]) continue;
     // A column has two triangles in each row on each side.
     const double n = 2.0 * edges[e].length / bands.edges[e]->longest;
-    if (n <= options.max_triangles) continue;
+    if (n <= options.sizes.max_triangles) continue;
     char first[32];
     std::snprintf(first, sizeof first, "%.3g", bands.edges[e]->first);
     const Point location = edges[e].samples[edges[e].samples.size() / 2].point;
     throw Error({.code = ErrorCode::overflow,
                  .attempted = k_estimate_attempt,
                  .problem = "a band with a first cell of " + std::string(first) + " m requires more than " + rounded(n) + " triangles; max_triangles is " +
-                            std::to_string(options.max_triangles),
+                            std::to_string(options.sizes.max_triangles),
                  .locations = {{location, bands.edges[e]->kind == BandKind::leading ? "leading edge" : "trailing edge"}},
                  .hint = "a larger chordwise or stretch; check the units of the model"});
   }
@@ -97,10 +97,10 @@ void check_count(const SurfaceMesh& mesh, const SurfaceMeshOptions& options) {
                  .attempted = k_estimate_attempt,
                  .problem = "no triangle is left: edges and faces of the model are shorter than a twentieth of min_edge and were removed",
                  .hint = "a smaller min_edge or max_edge; check the units of the model"});
-  if (n <= static_cast<std::size_t>(options.max_triangles)) return;
+  if (n <= static_cast<std::size_t>(options.sizes.max_triangles)) return;
   throw Error({.code = ErrorCode::overflow,
                .attempted = k_estimate_attempt,
-               .problem = std::to_string(n) + " triangles are more than max_triangles, " + std::to_string(options.max_triangles),
+               .problem = std::to_string(n) + " triangles are more than max_triangles, " + std::to_string(options.sizes.max_triangles),
                .hint = "a larger max_edge, min_edge or curvature_angle, or a larger max_triangles"});
 }
 

@@ -86,8 +86,8 @@ SurfaceMesh mesh_round(Meshing& meshing, const SurfaceSizes& field, const RunCon
   parallel_for(
       context, work.size(),
       [&](std::size_t i) {
-        meshing.faces[work[i]] =
-            mesh_one_face(model, work[i], meshing.topology, meshing.cuts, numbers, meshing.sizes, meshing.bands, field, meshing.options.max_triangles, context);
+        meshing.faces[work[i]] = mesh_one_face(model, work[i], meshing.topology, meshing.cuts, numbers, meshing.sizes, meshing.bands, field,
+                                               meshing.options.sizes.max_triangles, context);
         progress.done(i);
       },
       1);
@@ -217,28 +217,27 @@ void check_options(const SurfaceMeshOptions& options) {
   SurfaceMeshOptions copy = options;
   for (const Option& option : options_of(copy))
     if (option.kind != OptionKind::number || option.automatic.empty() || !is_automatic(std::get<double>(option.get()))) set_option(option, option.get());
-  if (options.min_edge > options.max_edge)  // the comparison is false if either value is automatic
-    throw Error(
-        {.code = ErrorCode::bad_argument,
-         .attempted = k_attempted,
-         .problem = "min_edge = " + number_text(options.min_edge, k_digits) + " m is above max_edge = " + number_text(options.max_edge, k_digits) + " m",
-         .hint = "curvature and narrow regions do not require edges below min_edge; automatic sets min_edge to 2 % of max_edge"});
+  if (options.sizes.min_edge > options.sizes.max_edge)  // the comparison is false if either value is automatic
+    throw Error({.code = ErrorCode::bad_argument,
+                 .attempted = k_attempted,
+                 .problem = "min_edge = " + number_text(options.sizes.min_edge, k_digits) +
+                            " m is above max_edge = " + number_text(options.sizes.max_edge, k_digits) + " m",
+                 .hint = "curvature and narrow regions do not require edges below min_edge; automatic sets min_edge to 2 % of max_edge"});
 }
 
 }  // namespace
 
-SurfaceMesh mesh_model(const Model& model, const SurfaceMeshOptions& options, std::span<const PatchSurfaceOptions> patches, const RunContext& context) {
+SurfaceMesh mesh_model(const Model& model, const SurfaceMeshOptions& options, std::span<const Rule> patches, const RunContext& context) {
   return mesh_model(model, options, patches, SpaceSizes{}, context);
 }
 
-SurfaceMesh mesh_model(const Model& model, const SurfaceMeshOptions& options, std::span<const PatchSurfaceOptions> patches, const SpaceSizes& requested,
+SurfaceMesh mesh_model(const Model& model, const SurfaceMeshOptions& options, std::span<const Rule> patches, const SpaceSizes& requested,
                        const RunContext& context) {
   check_options(options);
   Meshing meshing{sized_model(model, options, patches, requested, context), {}, {}, {}, {}, {}, {}, {}};
   check_estimate(model, meshing.sizes, meshing.edges, options);
   meshing.topology = absorb_small_parts(model, meshing.edges, meshing.sizes, meshing.absorbed);
-  if (const std::vector<SidePair> pairs = side_pairs(options.periodic); !pairs.empty())
-    meshing.periodic_borders = find_periodic_borders(model, meshing.edges, pairs, meshing.topology);
+  if (!options.periodic.empty()) meshing.periodic_borders = find_periodic_borders(model, meshing.edges, options.periodic, meshing.topology);
   meshing.bands = find_wing_bands(model, meshing.edges, meshing.sizes, meshing.topology);
   check_band_estimate(model, meshing.bands, meshing.edges, options);
   meshing.sizes.is_covered = [&](FaceId f, const Point& p) { return meshing.bands.covers(meshing.edges, f, p); };

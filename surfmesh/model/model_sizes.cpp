@@ -90,28 +90,16 @@ Column<ComponentId, double> default_sizes(const Model& model, const ModelSizes& 
 }
 
 /// Returns the change of size per distance. Meshes of a family are similar: in a finer mesh sizes grow more slowly with the distance from a fine region.
-double change_by_distance(const SurfaceMeshOptions& options) { return (options.growth - 1.0) / options.refinement; }
+double change_by_distance(const SurfaceMeshOptions& options) { return (options.sizes.growth - 1.0) / options.sizes.refinement; }
 
-void resolve_bands(const std::string& name, const SurfaceMeshOptions& options, std::span<const PatchSurfaceOptions> patches, FaceSizes& sizes) {
-  const BandTargets targets = band_targets(name, options, patches);
-  sizes.leading = targets.leading;
-  sizes.trailing = targets.trailing;
-  sizes.trailing_cells = options.trailing_edge_cells;
-  for (const PatchSurfaceOptions& rule : patches)
-    if (matches_glob(name, rule.names) && !is_automatic(rule.trailing_edge_cells)) sizes.trailing_cells = rule.trailing_edge_cells;
-  sizes.trailing_cells *= options.refinement;
-}
-
-bool is_min_edge_given(const std::string& name, const SurfaceMeshOptions& options, std::span<const PatchSurfaceOptions> patches) {
-  return !is_automatic(options.min_edge) || std::any_of(patches.begin(), patches.end(), [&](const PatchSurfaceOptions& rule) {
-    return !is_automatic(rule.min_edge) && matches_glob(name, rule.names);
-  });
+bool is_min_edge_given(const std::string& name, const SurfaceMeshOptions& options, std::span<const Rule> patches) {
+  return !is_automatic(options.sizes.min_edge) || rule_for(name, patches, "min_edge");
 }
 
 /// Checks chord errors if no min_edge is given. If a chord error is far too small, the automatic min_edge would limit it, and the mesh would silently differ
 /// from the request.
 /// \throws Error(overflow) if the request needs more than max_triangles \post the computed curvature sizes served this check only
-void require_chord_error_in_reach(const Model& model, const SurfaceMeshOptions& options, std::span<const PatchSurfaceOptions> patches, ModelSizes& sizes) {
+void require_chord_error_in_reach(const Model& model, const SurfaceMeshOptions& options, std::span<const Rule> patches, ModelSizes& sizes) {
   double n = 0.0, least = std::numeric_limits<double>::infinity();
   for (const FaceId f : model.faces.ids()) {
     const CurvatureLimits& limits = sizes.faces[f].limits;
@@ -120,35 +108,25 @@ void require_chord_error_in_reach(const Model& model, const SurfaceMeshOptions& 
     n += estimated_triangles(sizes, f);
     least = std::min(least, limits.chord_error);
   }
-  if (n <= options.max_triangles) return;
+  if (n <= options.sizes.max_triangles) return;
   throw Error({.code = ErrorCode::overflow,
                .attempted = "meshing the model's surface",
                .problem = "chord_error = " + number_text(least) + " m requires about " + number_text(n, 2) + " triangles; max_triangles is " +
-                          std::to_string(options.max_triangles),
+                          std::to_string(options.sizes.max_triangles),
                .hint = "a larger chord_error, or a min_edge that limits chord_error; check the units of the model"});
 }
 
-FaceSizes resolve(const std::string& name, double automatic_max, double automatic_least, double least_of_min, const SurfaceMeshOptions& options,
-                  std::span<const PatchSurfaceOptions> patches) {
-  double max_edge = options.max_edge, min_edge = options.min_edge, angle = options.curvature_angle, error = options.chord_error;
-  double leading = options.leading_edge_factor, trailing = options.trailing_edge_factor;
-  // The last matching rule that has a value is used.
-  for (const PatchSurfaceOptions& rule : patches) {
-    if (!matches_glob(name, rule.names)) continue;
-    if (!is_automatic(rule.max_edge)) max_edge = rule.max_edge;
-    if (!is_automatic(rule.min_edge)) min_edge = rule.min_edge;
-    if (!is_automatic(rule.curvature_angle)) angle = rule.curvature_angle;
-    if (!is_automatic(rule.chord_error)) error = rule.chord_error;
-    if (!is_automatic(rule.leading_edge_factor)) leading = rule.leading_edge_factor;
-    if (!is_automatic(rule.trailing_edge_factor)) trailing = rule.trailing_edge_factor;
-  }
+FaceSizes sizes_of_face(const std::string& name, double automatic_max, double automatic_least, double least_of_min, const SurfaceMeshOptions& of_all,
+                        std::span<const Rule> patches) {
+  const SurfaceMeshOptions options = resolve(of_all, patches, name);
+  const double min_edge = options.sizes.min_edge, angle = options.sizes.curvature_angle;
   FaceSizes sizes;
-  sizes.leading_factor = leading;
-  sizes.trailing_factor = trailing;
+  sizes.leading_factor = options.leading_edge_factor;
+  sizes.trailing_factor = options.trailing_edge_factor;
   sizes.has_tip_strips = options.tip_strips;
-  sizes.max_edge = is_automatic(max_edge) ? automatic_max : max_edge;
+  sizes.max_edge = is_automatic(options.sizes.max_edge) ? automatic_max : options.sizes.max_edge;
   sizes.limits.min_edge = std::min(sizes.max_edge, is_automatic(min_edge) ? std::max(k_min_of_max * sizes.max_edge, automatic_least) : min_edge);
-  sizes.least_narrow = is_automatic(min_edge) ? std::min(sizes.max_edge, automatic_least) / options.refinement : 0.0;
+  sizes.least_narrow = is_automatic(min_edge) ? std::min(sizes.max_edge, automatic_least) / options.sizes.refinement : 0.0;
   // An automatic min_edge must not limit a chord error. It must not cause sharp turns of the mesh where the model is smooth.
   if (is_automatic(min_edge)) {
     sizes.limits.most_turn = std::max(angle, k_most_turn);
@@ -157,24 +135,27 @@ FaceSizes resolve(const std::string& name, double automatic_max, double automati
     sizes.limits.least_edge = sizes.limits.error_edge = sizes.limits.min_edge;
   }
   sizes.limits.angle = angle;
-  if (!is_automatic(error)) sizes.limits.chord_error = error;
-  sizes.max_edge /= options.refinement;
+  if (!is_automatic(options.sizes.chord_error)) sizes.limits.chord_error = options.sizes.chord_error;
+  sizes.max_edge /= options.sizes.refinement;
   // The automatic lower limit for sharp turns is not enlarged in coarse members of a family. Round tips that are smooth in member 1 stay smooth.
-  sizes.limits.least_edge /= is_automatic(min_edge) ? std::max(options.refinement, 1.0) : options.refinement;
-  for (double* edge : {&sizes.limits.min_edge, &sizes.limits.error_edge}) *edge /= options.refinement;
-  sizes.limits.angle /= options.refinement;
+  sizes.limits.least_edge /= is_automatic(min_edge) ? std::max(options.sizes.refinement, 1.0) : options.sizes.refinement;
+  for (double* edge : {&sizes.limits.min_edge, &sizes.limits.error_edge}) *edge /= options.sizes.refinement;
+  sizes.limits.angle /= options.sizes.refinement;
   // The error of a chord is proportional to the square of its length.
-  sizes.limits.chord_error /= options.refinement * options.refinement;
+  sizes.limits.chord_error /= options.sizes.refinement * options.sizes.refinement;
   sizes.limits.growth = std::numeric_limits<double>::infinity();  // SurfaceSizes limits the growth when it propagates the sizes
-  resolve_bands(name, options, patches, sizes);
+  const BandTargets targets = band_targets(name, options.sizes, patches);
+  sizes.leading = targets.leading;
+  sizes.trailing = targets.trailing;
+  sizes.trailing_cells = options.trailing_edge_cells * options.sizes.refinement;
   // A band determines the sizes at its edge. The factor would only shorten the cells of the band along the edge.
   if (sizes.leading.is_any()) sizes.leading_factor = 1.0;
   if (sizes.trailing.is_any()) sizes.trailing_factor = 1.0;
   return sizes;
 }
 
-void check_rules(const Model& model, std::span<const PatchSurfaceOptions> patches) {
-  for (const PatchSurfaceOptions& rule : patches) {
+void check_rules(const Model& model, std::span<const Rule> patches) {
+  for (const Rule& rule : patches) {
     const bool is_used = std::any_of(model.faces.begin(), model.faces.end(), [&](const ModelFace& f) { return matches_glob(f.name, rule.names); });
     if (is_used) continue;
     ErrorInfo info{.code = ErrorCode::bad_argument, .attempted = "meshing the model's surface", .problem = "no face has a name like \"" + rule.names + "\""};
@@ -302,8 +283,8 @@ double distance_to_segment(const Point& p, const Point& a, const Point& b) {
   return distance(p, a + t * along);
 }
 
-ModelSizes sizes_of_faces(const Model& model, const Column<EdgeId, EdgeSamples>& edges, const SurfaceMeshOptions& options,
-                          std::span<const PatchSurfaceOptions> patches, const RunContext& context) {
+ModelSizes sizes_of_faces(const Model& model, const Column<EdgeId, EdgeSamples>& edges, const SurfaceMeshOptions& options, std::span<const Rule> patches,
+                          const RunContext& context) {
   check_rules(model, patches);
   ModelSizes sizes;
   sizes.growth = change_by_distance(options);
@@ -329,7 +310,7 @@ ModelSizes sizes_of_faces(const Model& model, const Column<EdgeId, EdgeSamples>&
     if (const double side = std::sqrt(curvature->area()); is_unknown && side > 0.0)
       by_default = std::min(by_default, std::max(k_of_face * side, k_least_max_edge * length));
     const bool is_wing = face.component.is_valid() && model.components[face.component].kind == ComponentKind::wing;
-    sizes.faces[f] = resolve(face.name, by_default, k_least_min_edge * length, is_wing ? k_least_of_min_on_wings : k_least_of_min, options, patches);
+    sizes.faces[f] = sizes_of_face(face.name, by_default, k_least_min_edge * length, is_wing ? k_least_of_min_on_wings : k_least_of_min, options, patches);
     sizes.faces[f].curvature = std::move(curvature);
     sizes.largest = std::max(sizes.largest, sizes.faces[f].max_edge);
   }
@@ -346,8 +327,8 @@ ModelSizes sizes_of_faces(const Model& model, const Column<EdgeId, EdgeSamples>&
 
 void add_local_sizes(const Model& model, const Column<EdgeId, EdgeSamples>& edges, const SurfaceMeshOptions& options, const SpaceSizes& requested,
                      ModelSizes& sizes) {
-  sizes.local = LocalSizes(model, edges, sizes, requested, options.refinement);
-  for (const SizePoint& s : requested.samples) sizes.in_space.push_back({s.point, s.size / options.refinement});
+  sizes.local = LocalSizes(model, edges, sizes, requested, options.sizes.refinement);
+  for (const SizePoint& s : requested.samples) sizes.in_space.push_back({s.point, s.size / options.sizes.refinement});
 }
 
 void add_sources(const Model& model, const Column<EdgeId, EdgeSamples>& edges, const ModelTopology& topology, const SurfaceMeshOptions& options,
@@ -370,7 +351,7 @@ void add_sources(const Model& model, const Column<EdgeId, EdgeSamples>& edges, c
       [&](std::size_t i) {
         const FaceId f(static_cast<std::uint64_t>(i));
         if (topology.is_absorbed[f] == 0 && !(bands && bands->is_strip_in_band(f)))
-          add_narrow_locations(model, f, edges, sizes.faces[f], options.narrow / options.refinement, narrow[i]);
+          add_narrow_locations(model, f, edges, sizes.faces[f], options.sizes.narrow / options.sizes.refinement, narrow[i]);
       },
       1);
   Column<EdgeId, std::vector<NarrowLocation>> narrow_of_edge(model.edges.size());

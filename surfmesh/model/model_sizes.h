@@ -44,8 +44,8 @@ struct ModelSizes {
 };
 
 /// \throws Error(bad_argument) for a rule that matches the name of no face
-ModelSizes sizes_of_faces(const Model& model, const Column<EdgeId, EdgeSamples>& edges, const SurfaceMeshOptions& options,
-                          std::span<const PatchSurfaceOptions> patches, const RunContext& context);
+ModelSizes sizes_of_faces(const Model& model, const Column<EdgeId, EdgeSamples>& edges, const SurfaceMeshOptions& options, std::span<const Rule> patches,
+                          const RunContext& context);
 
 /// Fills `edge_sizes` and `sources`. Absorbed faces and edges, and faces and edges within a band, require no size.
 struct ModelTopology;

@@ -17,14 +17,6 @@ namespace sterna::surfmesh {
 namespace {
 
 constexpr int k_border_digits = 3;
-constexpr const char* k_pairs_hint = "separate the two names of a pair with a comma, and pairs with a semicolon: \"left,right; floor,ceiling\"";
-
-std::string_view without_blanks(std::string_view text) {
-  while (text.starts_with(' ')) text.remove_prefix(1);
-  while (text.ends_with(' ')) text.remove_suffix(1);
-  return text;
-}
-
 struct BorderProjection {
   EdgeId edge;
   double t = 0.0;
@@ -51,10 +43,10 @@ class PeriodicBorderFinder {
     tolerance_ = box.empty() ? 0.0 : k_border_tolerance * box.longest_side();
   }
 
-  PeriodicBorders find(std::span<const SidePair> pairs) {
+  PeriodicBorders find(std::span<const PeriodicNames> pairs) {
     borders_.stops.resize(model_.edges.size());
     borders_.of_edge.resize(model_.edges.size());
-    for (const SidePair& names : pairs) pairs_.push_back(sides_of(names));
+    for (const PeriodicNames& names : pairs) pairs_.push_back(sides_of(names));
     for (const Sides& pair : pairs_) align_absorbed_corners(pair);
     // The loop repeats because a stop may be the image of an image of a corner. With two pairs in two directions it takes two rounds.
     for (bool is_any = true; is_any;) {
@@ -88,21 +80,23 @@ class PeriodicBorderFinder {
     return std::ranges::any_of(model_.faces, [&](const ModelFace& face) { return face.name == name; });
   }
 
-  Sides sides_of(const SidePair& names) {
-    for (const std::string& name : names)
+  Sides sides_of(const PeriodicNames& names) {
+    for (const std::string& name : {names.first, names.second})
       if (!is_face(name) && free_border_of(name).edges.empty()) {
-        ErrorInfo info = error_of(names[0], names[1]);
+        ErrorInfo info = error_of(names.first, names.second);
         info.problem = "the model has no face \"" + name + "\"";
         std::vector<std::string> known;
         for (const ModelFace& face : model_.faces) known.push_back(face.name);
         info.hint = names_hint(known, name);
         throw Error(std::move(info));
       } else if (!taken_.insert(name).second) {
-        ErrorInfo info = error_of(names[0], names[1]);
+        ErrorInfo info = error_of(names.first, names.second);
         info.problem = "side \"" + name + "\" is named twice; each side must have one partner";
         throw Error(std::move(info));
       }
-    Sides sides{{is_face(names[0]) ? border_of(names[0]) : free_border_of(names[0]), is_face(names[1]) ? border_of(names[1]) : free_border_of(names[1])}, {}};
+    Sides sides{{is_face(names.first) ? border_of(names.first) : free_border_of(names.first),
+                 is_face(names.second) ? border_of(names.second) : free_border_of(names.second)},
+                {}};
     find_translation(sides);
     return sides;
   }
@@ -385,28 +379,9 @@ class PeriodicBorderFinder {
 
 }  // namespace
 
-PeriodicBorders find_periodic_borders(const Model& model, const Column<EdgeId, EdgeSamples>& edges, std::span<const SidePair> pairs, ModelTopology& topology) {
+PeriodicBorders find_periodic_borders(const Model& model, const Column<EdgeId, EdgeSamples>& edges, std::span<const PeriodicNames> pairs,
+                                      ModelTopology& topology) {
   return PeriodicBorderFinder(model, edges, topology).find(pairs);
-}
-
-std::vector<SidePair> side_pairs(std::string_view text) {
-  std::vector<SidePair> pairs;
-  const std::string whole(text);
-  while (!without_blanks(text).empty()) {
-    const std::size_t end = std::min(text.find(';'), text.size());
-    const std::string_view pair = text.substr(0, end);
-    text.remove_prefix(std::min(end + 1, text.size()));
-    const std::size_t comma = pair.find(',');
-    const std::string_view first = without_blanks(pair.substr(0, comma)),
-                           second = comma == std::string_view::npos ? std::string_view() : without_blanks(pair.substr(comma + 1));
-    if (first.empty() || second.empty() || second.find(',') != std::string_view::npos)
-      throw Error({.code = ErrorCode::bad_argument,
-                   .attempted = "option periodic",
-                   .problem = "\"" + whole + "\" is not a list of pairs of names",
-                   .hint = k_pairs_hint});
-    pairs.push_back({std::string(first), std::string(second)});
-  }
-  return pairs;
 }
 
 std::string open_plane_name(std::size_t axis, bool is_max) { return std::string("symmetry_") + "xyz"[axis] + (is_max ? "_max" : "_min"); }
@@ -415,12 +390,6 @@ bool is_open_plane(std::string_view name) {
   for (std::size_t axis = 0; axis < 3; ++axis)
     if (name == open_plane_name(axis, false) || name == open_plane_name(axis, true)) return true;
   return false;
-}
-
-std::string side_pairs_text(std::span<const SidePair> pairs) {
-  std::string text;
-  for (const SidePair& pair : pairs) text += (text.empty() ? "" : "; ") + pair[0] + "," + pair[1];
-  return text;
 }
 
 double nearest_parameter(const ModelEdge& edge, const EdgeSamples& samples, const Interval& range, const Point& p) {

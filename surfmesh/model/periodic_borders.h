@@ -8,19 +8,12 @@
 #include <string_view>
 #include <vector>
 
+#include "geom/mesh/periodic_names.h"
 #include "geom/mesh/size_points.h"
 #include "surfmesh/model/edge_samples.h"
 #include "surfmesh/model/model_topology.h"
 
 namespace sterna::surfmesh {
-
-/// Names of two sides.
-using SidePair = std::array<std::string, 2>;
-
-/// Parses "left,right; floor,ceiling", the format of SurfaceMeshOptions::periodic; side_pairs_text() writes it.
-/// \throws Error(bad_argument) for other strings
-std::vector<SidePair> side_pairs(std::string_view text);
-std::string side_pairs_text(std::span<const SidePair> pairs);
 
 /// Returns a name such as "symmetry_y_min". volume_mesh gives this name to the plane that closes the open end of a wall if the other end of that axis has such
 /// a plane, too.
@@ -59,7 +52,8 @@ inline constexpr double k_border_tolerance = 1e-6;
 /// computed from its borders. If several corners were absorbed into one, the corner of the image is the image of the remaining corner.
 /// \throws Error(bad_argument) for names that no face has (the message lists the existing names), for a side in several pairs, and for borders that are not
 /// images of each other (with locations and distances)
-PeriodicBorders find_periodic_borders(const Model& model, const Column<EdgeId, EdgeSamples>& edges, std::span<const SidePair> pairs, ModelTopology& topology);
+PeriodicBorders find_periodic_borders(const Model& model, const Column<EdgeId, EdgeSamples>& edges, std::span<const PeriodicNames> pairs,
+                                      ModelTopology& topology);
 
 /// Returns the parameter within `range` at which the edge is nearest to p.
 double nearest_parameter(const ModelEdge& edge, const EdgeSamples& samples, const Interval& range, const Point& p);

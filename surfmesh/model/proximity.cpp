@@ -71,7 +71,7 @@ void add_over(const NearFacet& facet, const SizePoint& source, std::vector<SizeP
 
 }  // namespace
 
-bool looks_for_gaps(const SurfaceMeshOptions& options) { return options.gap_cells > 0.0 || !is_automatic(options.thickness_factor); }
+bool looks_for_gaps(const SurfaceMeshOptions& options) { return options.sizes.gap_cells > 0.0 || !is_automatic(options.sizes.thickness_factor); }
 
 void add_gap_sources(const Model& model, const SurfaceSizes& field, const SurfaceMeshOptions& options, ModelSizes& sizes, const RunContext& context) {
   if (!looks_for_gaps(options)) return;
@@ -86,8 +86,8 @@ void add_gap_sources(const Model& model, const SurfaceSizes& field, const Surfac
   };
   std::vector<std::vector<Found>> found(facets.size());
   // The size required by a gap is share * width. Gaps are ignored if that size exceeds the largest edge.
-  const double share_of_gap = options.gap_cells > 0.0 ? 1.0 / (options.gap_cells * options.refinement) : 0.0;
-  const double share_of_part = is_automatic(options.thickness_factor) ? 0.0 : options.thickness_factor / options.refinement;
+  const double share_of_gap = options.sizes.gap_cells > 0.0 ? 1.0 / (options.sizes.gap_cells * options.sizes.refinement) : 0.0;
+  const double share_of_part = is_automatic(options.sizes.thickness_factor) ? 0.0 : options.sizes.thickness_factor / options.sizes.refinement;
   parallel_for(
       context, facets.size(),
       [&](std::size_t i) {

@@ -5,8 +5,8 @@
 
 namespace sterna::surfmesh {
 
-SizedModel sized_model(Borrowed<const Model> of, Borrowed<const SurfaceMeshOptions> given, std::span<const PatchSurfaceOptions> patches,
-                       const SpaceSizes& requested, const RunContext& context) {
+SizedModel sized_model(Borrowed<const Model> of, Borrowed<const SurfaceMeshOptions> given, std::span<const Rule> patches, const SpaceSizes& requested,
+                       const RunContext& context) {
   const Model& model = of;
   const SurfaceMeshOptions& options = given;
   SizedModel sized{model, options, sample_edges(model, context), {}, {}};

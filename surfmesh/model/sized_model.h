@@ -19,8 +19,8 @@ struct SizedModel {
 
 /// Samples the edges and computes the sizes required by options, curvature and locations.
 /// \throws Error(bad_argument) for patch rules that match no patch, and for chord errors out of reach
-SizedModel sized_model(Borrowed<const Model> model, Borrowed<const SurfaceMeshOptions> options, std::span<const PatchSurfaceOptions> patches,
-                       const SpaceSizes& requested, const RunContext& context);
+SizedModel sized_model(Borrowed<const Model> model, Borrowed<const SurfaceMeshOptions> options, std::span<const Rule> patches, const SpaceSizes& requested,
+                       const RunContext& context);
 
 /// Adds the sizes of narrow regions and, if requested, of gaps.
 /// \pre small parts have been absorbed

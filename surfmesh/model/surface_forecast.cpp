@@ -145,14 +145,15 @@ void explain(const SizedModel& all, const FaceSum& sum, FaceForecast& forecast) 
         by_curvature = std::min(by_curvature,
                                 target.limits.size_of(largest_curvature(all.model.faces[forecast.face].surface->derivatives(use.parameter->point(least.t)))));
   if (by_curvature <= k_same_size * least.size) return blame(curvature, less_curvature);
-  return blame("narrow region: the face or its neighbour is about " + metres(least.size * all.options.refinement / all.options.narrow) + " wide there",
-               "a larger min_edge or narrow");
+  return blame(
+      "narrow region: the face or its neighbour is about " + metres(least.size * all.options.sizes.refinement / all.options.sizes.narrow) + " wide there",
+      "a larger min_edge or narrow");
 }
 
 }  // namespace
 
-SurfaceForecast forecast_surface(const Model& model, const SurfaceMeshOptions& options, std::span<const PatchSurfaceOptions> patches,
-                                 const SpaceSizes& requested, const RunContext& context) {
+SurfaceForecast forecast_surface(const Model& model, const SurfaceMeshOptions& options, std::span<const Rule> patches, const SpaceSizes& requested,
+                                 const RunContext& context) {
   SizedModel all = sized_model(model, options, patches, requested, context);
   std::vector<FaceSum> sums(model.faces.size());
   double rough = 0.0;

@@ -31,7 +31,7 @@ inline constexpr std::size_t k_forecast_faces = 3;
 /// triangles (20 million) sizes are not carried over the surface, and the number is a lower bound. The forecast takes a fifth of the time of mesh_model(), but
 /// up to twice that time for very many small faces. Rows at leading and trailing edges are not counted.
 /// \throws Error(bad_argument) like mesh_model()
-SurfaceForecast forecast_surface(const Model& model, const SurfaceMeshOptions& options, std::span<const PatchSurfaceOptions> patches,
-                                 const SpaceSizes& requested, const RunContext& context);
+SurfaceForecast forecast_surface(const Model& model, const SurfaceMeshOptions& options, std::span<const Rule> patches, const SpaceSizes& requested,
+                                 const RunContext& context);
 
 }  // namespace sterna::surfmesh

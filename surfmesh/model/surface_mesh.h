@@ -4,64 +4,31 @@
 #include <array>
 #include <cstdint>
 #include <functional>
-#include <numbers>
 #include <span>
 #include <string>
 #include <vector>
 
-#include "geom/base/joined.h"
+#include "geom/base/rules.h"
 #include "geom/base/run_context.h"
-#include "geom/base/schema.h"
+#include "geom/mesh/periodic_names.h"
 #include "geom/mesh/tri_mesh.h"
 #include "geom/model/deform.h"
 #include "geom/model/model.h"
 #include "surfmesh/model/background_sizes.h"
+#include "surfmesh/model/size_options.h"
 
 namespace sterna::surfmesh {
 
 struct SurfaceMeshOptions {
-  double max_edge = k_automatic;
-  double min_edge = k_automatic;
-  double curvature_angle = 12.0 * std::numbers::pi / 180.0;
-  double chord_error = k_automatic;
-  double growth = 1.2;
-  double refinement = 1.0;
-  double narrow = 2.0;
+  SurfaceSizeOptions sizes;
   double leading_edge_factor = 0.5;
   double trailing_edge_factor = 0.5;
   bool tip_strips = true;
   double intersection_factor = 0.5;
-  double gap_cells = 0.0;
-  double thickness_factor = k_automatic;
   std::string crossings = "error";
   std::string failed_faces = "error";
-  int max_triangles = 100'000'000;
-  double leading_edge_chordwise = k_automatic;
-  double leading_edge_stretch = k_automatic;
-  double leading_edge_growth = 1.2;
-  double trailing_edge_chordwise = k_automatic;
-  double trailing_edge_stretch = k_automatic;
-  double trailing_edge_growth = 1.2;
   double trailing_edge_cells = k_automatic;
-  std::string periodic = {};
-};
-
-/// Options for the faces (patches) whose names match. NaN: the options for all faces apply.
-struct PatchSurfaceOptions {
-  std::string names;                            ///< pattern for names, such as "wing*"; "*" matches any characters, "?" any single one
-  double max_edge = k_automatic;                ///< m
-  double min_edge = k_automatic;                ///< m
-  double curvature_angle = k_automatic;         ///< rad
-  double chord_error = k_automatic;             ///< m
-  double leading_edge_chordwise = k_automatic;  ///< m
-  double leading_edge_stretch = k_automatic;
-  double leading_edge_growth = k_automatic;
-  double trailing_edge_chordwise = k_automatic;  ///< m
-  double trailing_edge_stretch = k_automatic;
-  double trailing_edge_growth = k_automatic;
-  double trailing_edge_cells = k_automatic;
-  double leading_edge_factor = k_automatic;
-  double trailing_edge_factor = k_automatic;
+  std::vector<PeriodicNames> periodic;
 };
 
 /// Target edge lengths in space, independent of faces. They are also divided by `refinement`.
@@ -173,8 +140,8 @@ struct SurfaceMesh {
 /// matches no face's name, or sides of `periodic` that are not images of each other; Error(overflow) for more than max_triangles, before meshing if sizes and
 /// areas predict it; Error(non_manifold_surface) if triangles of faces do not join; Error(self_intersection) for crossing triangles that refinement does not
 /// separate, unless options.crossings allows them
-SurfaceMesh mesh_model(const Model& model, const SurfaceMeshOptions& options, std::span<const PatchSurfaceOptions> patches, const RunContext& context);
-SurfaceMesh mesh_model(const Model& model, const SurfaceMeshOptions& options, std::span<const PatchSurfaceOptions> patches, const SpaceSizes& requested,
+SurfaceMesh mesh_model(const Model& model, const SurfaceMeshOptions& options, std::span<const Rule> patches, const RunContext& context);
+SurfaceMesh mesh_model(const Model& model, const SurfaceMeshOptions& options, std::span<const Rule> patches, const SpaceSizes& requested,
                        const RunContext& context);
 
 /// Returns several human-readable lines.
@@ -184,97 +151,21 @@ std::string to_text(const SurfaceMeshReport& report);
 
 namespace sterna {
 
-namespace surfmesh {
-
-/// Returns the schema fields of the row options at leading and trailing edges, for every struct that has them. The arguments are the help strings for values
-/// that are not given.
-template <class O>
-constexpr std::array<Field<O>, 6> edge_row_fields(std::string_view no_first, std::string_view no_stretch, std::string_view no_growth = {}) {
-  return {{{.name = "leading_edge_chordwise",
-            .member = &O::leading_edge_chordwise,
-            .unit = Unit::metre,
-            .min = 1e-9,
-            .help = "first cell beside leading edges, in rows of stretched triangles",
-            .automatic = no_first},
-           {.name = "leading_edge_stretch",
-            .member = &O::leading_edge_stretch,
-            .min = 1.0,
-            .max = 50.0,
-            .help = "ratio of the longest cell along the edge to the first cell across it",
-            .automatic = no_stretch},
-           {.name = "leading_edge_growth",
-            .member = &O::leading_edge_growth,
-            .min = 1.01,
-            .max = 1.2,
-            .help = "ratio of the heights of consecutive rows",
-            .automatic = no_growth},
-           {.name = "trailing_edge_chordwise",
-            .member = &O::trailing_edge_chordwise,
-            .unit = Unit::metre,
-            .min = 1e-9,
-            .help = "first cell beside trailing edges, on both sides, or beside the base of blunt trailing edges",
-            .automatic = no_first},
-           {.name = "trailing_edge_stretch",
-            .member = &O::trailing_edge_stretch,
-            .min = 1.0,
-            .max = 50.0,
-            .help = "ratio of the longest cell along the edge to the first cell across it",
-            .automatic = no_stretch},
-           {.name = "trailing_edge_growth",
-            .member = &O::trailing_edge_growth,
-            .min = 1.01,
-            .max = 1.2,
-            .help = "ratio of the heights of consecutive rows",
-            .automatic = no_growth}}};
-}
-
-inline constexpr std::string_view k_no_rows = "no rows, or the longest edge divided by the stretch", k_no_row_stretch = "no rows, or 10";
-
-}  // namespace surfmesh
-
 template <>
 struct Schema<surfmesh::SurfaceMeshOptions> {
   using O = surfmesh::SurfaceMeshOptions;
   static constexpr std::string_view stage = "surface_mesh";
-  static constexpr std::array own_fields = {
-      Field<O>{.name = "max_edge",
-               .member = &O::max_edge,
-               .unit = Unit::metre,
-               .min = 1e-9,
-               .help = "largest edge length",
-               .automatic = "8 % of the mean circumference of bodies, 15 % of the mean chord of wings, else 2 % of the component's longest side and a quarter "
-                            "of the root of each face's area"},
-      Field<O>{.name = "min_edge",
-               .member = &O::min_edge,
-               .unit = Unit::metre,
-               .min = 0.0,
-               .help = "smallest edge length that curvature and narrow regions may require",
-               .automatic = "2 % of the longest edge, at least 1e-5 of the model's length; half where an edge would span more than 30 degrees, less where "
-                            "chord_error needs it"},
-      Field<O>{.name = "curvature_angle",
-               .member = &O::curvature_angle,
-               .unit = Unit::radian,
-               .min = 0.001,
-               .max = 1.6,
-               .help = "largest angle by which the surface turns along an edge"},
-      Field<O>{.name = "chord_error",
-               .member = &O::chord_error,
-               .unit = Unit::metre,
-               .min = 1e-9,
-               .help = "largest distance between the middle of a triangle and the surface; smaller details need not be resolved",
-               .automatic = "no limit"},
-      Field<O>{.name = "growth", .member = &O::growth, .min = 1.01, .max = 3.0, .help = "largest ratio of the lengths of consecutive edges"},
-      Field<O>{.name = "refinement",
-               .member = &O::refinement,
-               .min = 0.01,
-               .max = 100.0,
-               .help = "divisor of lengths, angles and growth - 1: 1.5 for the next finer mesh of a family; give volume_mesh the same value",
-               .choices = "extra_coarse=0.4444444444444444 coarse=0.6666666666666666 medium=1 fine=1.5 extra_fine=2.25"},
-      Field<O>{.name = "narrow",
-               .member = &O::narrow,
-               .min = 0.1,
-               .max = 100.0,
-               .help = "largest edge length along a narrow face, in widths of the face (never below a fifth of min_edge)"},
+  static constexpr surfmesh::SizeTexts texts = {
+      .automatic_max_edge =
+          "8 % of the mean circumference of bodies, 15 % of the mean chord of wings, else 2 % of the component's longest side and a quarter "
+          "of the root of each face's area",
+      .automatic_min_edge =
+          "2 % of the longest edge, at least 1e-5 of the model's length; half where an edge would span more than 30 degrees, less where "
+          "chord_error needs it",
+      .chord_error = "largest distance between the middle of a triangle and the surface; smaller details need not be resolved",
+      .narrow = "largest edge length along a narrow face, in widths of the face (never below a fifth of min_edge)",
+      .gap_cells = "number of edges across a gap between opposite faces; 0: gaps are ignored"};
+  static constexpr std::array wing_fields = {
       Field<O>{.name = "leading_edge_factor",
                .member = &O::leading_edge_factor,
                .min = 0.01,
@@ -293,17 +184,8 @@ struct Schema<surfmesh::SurfaceMeshOptions> {
                .min = 0.01,
                .max = 1.0,
                .help = "edge length where components of a union meet, relative to the longest edge of their faces"},
-      Field<O>{.name = "gap_cells",
-               .member = &O::gap_cells,
-               .min = 0.0,
-               .max = 20.0,
-               .help = "number of edges across a gap between opposite faces; 0: gaps are ignored"},
-      Field<O>{.name = "thickness_factor",
-               .member = &O::thickness_factor,
-               .min = 0.1,
-               .max = 100.0,
-               .help = "largest edge length relative to the thickness of the part",
-               .automatic = "no limit"},
+  };
+  static constexpr std::array failure_fields = {
       Field<O>{.name = "crossings",
                .member = &O::crossings,
                .help = "crossing triangles are refined; remaining crossings are an error (error) or kept with a warning (warn); ignore: no test for crossings",
@@ -312,11 +194,8 @@ struct Schema<surfmesh::SurfaceMeshOptions> {
                .member = &O::failed_faces,
                .help = "a face that cannot be meshed is an error, or is left as a hole with a warning; --auto leaves holes and fills them",
                .choices = "error hole"},
-      Field<O>{.name = "max_triangles",
-               .member = &O::max_triangles,
-               .min = 1,
-               .max = 2e9,
-               .help = "largest number of triangles; more are an error, reported before meshing if the sizes predict it"},
+  };
+  static constexpr std::array base_fields = {
       Field<O>{.name = "trailing_edge_cells",
                .member = &O::trailing_edge_cells,
                .min = 1.0,
@@ -326,10 +205,11 @@ struct Schema<surfmesh::SurfaceMeshOptions> {
   };
   static constexpr std::array side_fields = {
       Field<O>{.name = "periodic",
-               .member = &O::periodic,
+               .member = text_option<&O::periodic, side_pairs, side_pairs_text>(),
                .help = "pairs of flat faces that are translated images of each other: \"left,right; floor,ceiling\"; their borders are divided alike"},
   };
-  static constexpr auto fields = joined(own_fields, surfmesh::edge_row_fields<O>(surfmesh::k_no_rows, surfmesh::k_no_row_stretch), side_fields);
+  static constexpr auto fields = joined(surfmesh::length_fields<O>(texts), wing_fields, surfmesh::gap_fields<O>(texts), failure_fields,
+                                        surfmesh::count_fields<O>(), base_fields, surfmesh::edge_row_fields<O>(), side_fields);
 };
 
 }  // namespace sterna

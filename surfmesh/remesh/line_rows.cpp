@@ -226,10 +226,10 @@ void let_rows_go_on(const Reference& r, std::vector<LineRows>& lines) {
 
 }  // namespace
 
-RowLines find_row_lines(const Reference& r, const SurfaceLimitTable& limits_of, const RemeshOptions& options, std::span<const PatchSurfaceOptions> patches) {
+RowLines find_row_lines(const Reference& r, const SurfaceLimitTable& limits_of, const RemeshOptions& options, std::span<const Rule> patches) {
   RowLines found;
   std::vector<BandTargets> targets;
-  for (const Patch& patch : r.mesh->patches) targets.push_back(band_targets(patch.name, options, patches));
+  for (const Patch& patch : r.mesh->patches) targets.push_back(band_targets(patch.name, resolve(options, patches, patch.name).sizes, patches));
   const bool is_leading_requested = std::ranges::any_of(targets, [](const BandTargets& target) { return target.leading.is_any(); });
   const bool is_trailing_requested = std::ranges::any_of(targets, [](const BandTargets& target) { return target.trailing.is_any(); });
   if (!is_leading_requested && !is_trailing_requested) return found;

@@ -39,8 +39,7 @@ struct RowLines {
 /// Finds lines with rows. There are three types: sharp lines (a turn of more than 120 degrees) that face aft or forward along x; the sides of narrow bases that
 /// face aft, with rows on the wing's side only; and lines laid on smooth noses (is_nose) where the surface has the curvature of a nose. Lines of kept triangles
 /// have no rows.
-RowLines find_row_lines(const Reference& reference, const SurfaceLimitTable& limits, const RemeshOptions& options,
-                        std::span<const PatchSurfaceOptions> patches);
+RowLines find_row_lines(const Reference& reference, const SurfaceLimitTable& limits, const RemeshOptions& options, std::span<const Rule> patches);
 
 /// Returns the width of the surface beside a half-edge in metres: the distance from its middle, at right angles into its triangle, across the surface to the
 /// next line. The result is at most `most`.

@@ -214,8 +214,9 @@ NoseCut cut_noses(const Reference& r, bool is_flat, const RunContext& context) {
 }
 
 std::optional<NoseCut> cut_noses_if_requested(const TriMesh& wall, const ReferenceOptions& reference_options, const RemeshOptions& options,
-                                              std::span<const PatchSurfaceOptions> patches, const RunContext& context) {
-  const bool is_requested = std::ranges::any_of(wall.patches, [&](const Patch& patch) { return band_targets(patch.name, options, patches).leading.is_any(); });
+                                              std::span<const Rule> patches, const RunContext& context) {
+  const bool is_requested = std::ranges::any_of(
+      wall.patches, [&](const Patch& patch) { return band_targets(patch.name, resolve(options, patches, patch.name).sizes, patches).leading.is_any(); });
   if (!is_requested) return std::nullopt;
   const Reference reference(wall, reference_options, {}, {}, context);
   NoseCut cut = cut_noses(reference, !options.smooth, context);

@@ -22,6 +22,6 @@ NoseCut cut_noses(const Reference& reference, bool is_flat, const RunContext& co
 
 /// Returns the wall with the smooth leading edges of wings as lines of edges. Returns nothing if no rule or option requires rows there.
 std::optional<NoseCut> cut_noses_if_requested(const TriMesh& wall, const ReferenceOptions& reference_options, const RemeshOptions& options,
-                                              std::span<const PatchSurfaceOptions> patches, const RunContext& context);
+                                              std::span<const Rule> patches, const RunContext& context);
 
 }  // namespace sterna::surfmesh

@@ -24,7 +24,7 @@ struct RemeshDemand {
 /// triangles cross, because later rounds keep more of the given triangles. At the end it refuses a result that is farther from the given surface than allowed,
 /// or turned more.
 /// \throws Error like remesh_surface; Error(geometry_failed) if it ends early, with the location of the thinnest triangle or of the largest distance
-RemeshResult remesh_surface(const TriMesh& wall, const RemeshOptions& options, std::span<const PatchSurfaceOptions> patches, const SpaceSizes& requested,
+RemeshResult remesh_surface(const TriMesh& wall, const RemeshOptions& options, std::span<const Rule> patches, const SpaceSizes& requested,
                             const RemeshDemand& demand, const RunContext& context);
 
 /// Checks the distance and the turn of a result. The result may have been made without demand.

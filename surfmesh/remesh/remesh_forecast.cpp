@@ -17,7 +17,7 @@ constexpr double k_made = 1.3;
 
 }  // namespace
 
-RemeshForecast forecast_remesh(const TriMesh& wall, const RemeshOptions& options, std::span<const PatchSurfaceOptions> patches, const SpaceSizes& requested,
+RemeshForecast forecast_remesh(const TriMesh& wall, const RemeshOptions& options, std::span<const Rule> patches, const SpaceSizes& requested,
                                const RunContext& context) {
   const Reference reference(wall, {options.feature_angle, least_edge(wall, options, patches, context), options.smooth, {}}, {}, {}, context);
   const RemeshSizes sizes(reference, options, patches, requested, context);

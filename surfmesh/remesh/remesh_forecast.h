@@ -20,7 +20,7 @@ struct RemeshForecast {
 
 /// Computes the forecast from the sizes of the first round, without making triangles. It is within about 30 % of the result of remesh_surface().
 /// \throws the errors of remesh_surface for options and surfaces that it refuses before its work
-RemeshForecast forecast_remesh(const TriMesh& wall, const RemeshOptions& options, std::span<const PatchSurfaceOptions> patches, const SpaceSizes& requested,
+RemeshForecast forecast_remesh(const TriMesh& wall, const RemeshOptions& options, std::span<const Rule> patches, const SpaceSizes& requested,
                                const RunContext& context);
 
 }  // namespace sterna::surfmesh

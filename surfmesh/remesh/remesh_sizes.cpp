@@ -41,15 +41,15 @@ std::vector<double> automatic_edges(const TriMesh& wall, const Components& piece
   return edges;
 }
 
-void require_rules(const TriMesh& wall, std::span<const PatchSurfaceOptions> rules) {
+void require_rules(const TriMesh& wall, std::span<const Rule> rules) {
   constexpr std::string_view k_attempted = "remeshing a surface";
   std::vector<std::string> names;
   for (const Patch& patch : wall.patches) names.push_back(patch.name);
-  for (const PatchSurfaceOptions& rule : rules) {
+  for (const Rule& rule : rules) {
     if (std::none_of(names.begin(), names.end(), [&](const std::string& name) { return matches_glob(name, rule.names); }))
       throw_bad_argument(k_attempted, "no patch has a name like \"" + rule.names + "\"", {}, names_hint(names, rule.names));
-    for (const double value : {rule.trailing_edge_cells, rule.leading_edge_factor, rule.trailing_edge_factor})
-      if (!is_automatic(value))
+    for (const char* option : {"trailing_edge_cells", "leading_edge_factor", "trailing_edge_factor"})
+      if (is_set(rule, option))
         throw_bad_argument(
             k_attempted,
             "the rule for \"" + rule.names + "\" sets trailing_edge_cells or factors at leading or trailing edges, which do not apply to a triangulation", {},
@@ -57,15 +57,11 @@ void require_rules(const TriMesh& wall, std::span<const PatchSurfaceOptions> rul
   }
 }
 
-SurfaceLimits limits_of(const std::string& name, double automatic_edge, const RemeshOptions& options, std::span<const PatchSurfaceOptions> rules) {
-  SurfaceLimits l{or_else(options.max_edge, automatic_edge), options.min_edge, options.curvature_angle, options.chord_error};
-  for (const PatchSurfaceOptions& rule : rules) {
-    if (!matches_glob(name, rule.names)) continue;
-    l = {or_else(rule.max_edge, l.max_edge), or_else(rule.min_edge, l.min_edge), or_else(rule.curvature_angle, l.curvature_angle),
-         or_else(rule.chord_error, l.chord_error)};
-  }
+SurfaceLimits limits_of(const std::string& name, double automatic_edge, const RemeshOptions& options, std::span<const Rule> rules) {
+  const RemeshOptions own = resolve(options, rules, name);
+  SurfaceLimits l{or_else(own.sizes.max_edge, automatic_edge), own.sizes.min_edge, own.sizes.curvature_angle, own.sizes.chord_error};
   l.min_edge = std::min(or_else(l.min_edge, k_min_edge_of_max * l.max_edge), l.max_edge);
-  for (double* length : {&l.max_edge, &l.min_edge, &l.curvature_angle, &l.chord_error}) *length /= options.refinement;
+  for (double* length : {&l.max_edge, &l.min_edge, &l.curvature_angle, &l.chord_error}) *length /= options.sizes.refinement;
   return l;
 }
 
@@ -100,23 +96,22 @@ double bend_curvature(const Reference& r, HalfedgeId h, double min_edge) {
 }
 
 void check_options(const RemeshOptions& o) {
-  for (const double length : {o.max_edge, o.curvature_angle, o.chord_error, o.refinement, o.narrow})
+  for (const double length : {o.sizes.max_edge, o.sizes.curvature_angle, o.sizes.chord_error, o.sizes.refinement, o.sizes.narrow})
     if (!is_automatic(length) && !(length > 0.0)) throw_bad_argument("remeshing a surface", "sizes, angles and factors must be positive");
-  if (!(o.growth > 1.0)) throw_bad_argument("remeshing a surface", "growth must be above 1");
-  if (!is_automatic(o.max_edge) && !is_automatic(o.min_edge) && o.min_edge > o.max_edge)
+  if (!(o.sizes.growth > 1.0)) throw_bad_argument("remeshing a surface", "growth must be above 1");
+  if (!is_automatic(o.sizes.max_edge) && !is_automatic(o.sizes.min_edge) && o.sizes.min_edge > o.sizes.max_edge)
     throw_bad_argument("remeshing a surface", "min_edge is larger than max_edge");
 }
 
 }  // namespace
 
-double least_edge(const TriMesh& wall, const RemeshOptions& options, std::span<const PatchSurfaceOptions> patches, const RunContext& context) {
+double least_edge(const TriMesh& wall, const RemeshOptions& options, std::span<const Rule> patches, const RunContext& context) {
   check_options(options);
   require_rules(wall, patches);
   return SurfaceLimitTable(wall, Topology(wall, context), options, patches).least();
 }
 
-SurfaceLimitTable::SurfaceLimitTable(Borrowed<const TriMesh> wall, const Topology& topology, const RemeshOptions& options,
-                                     std::span<const PatchSurfaceOptions> rules)
+SurfaceLimitTable::SurfaceLimitTable(Borrowed<const TriMesh> wall, const Topology& topology, const RemeshOptions& options, std::span<const Rule> rules)
     : wall_(wall), pieces_(connected_components(wall, topology)) {
   for (const double edge : automatic_edges(wall, pieces_)) {
     limits_.emplace_back();
@@ -131,14 +126,14 @@ double SurfaceLimitTable::least() const {
   return least;
 }
 
-RemeshSizes::RemeshSizes(Borrowed<const Reference> reference, const RemeshOptions& options, std::span<const PatchSurfaceOptions> patches,
-                         const SpaceSizes& requested, const RunContext& context)
+RemeshSizes::RemeshSizes(Borrowed<const Reference> reference, const RemeshOptions& options, std::span<const Rule> patches, const SpaceSizes& requested,
+                         const RunContext& context)
     : r_(reference),
       options_(options),
       patches_(patches.begin(), patches.end()),
       requested_(requested),
-      refinement_(options.refinement),
-      slope_((options.growth - 1.0) / options.refinement),
+      refinement_(options.sizes.refinement),
+      slope_((options.sizes.growth - 1.0) / options.sizes.refinement),
       cap_(reference->mesh->n_triangles()),
       min_edge_(reference->mesh->n_triangles()),
       own_(reference->mesh->n_triangles()),
@@ -174,8 +169,8 @@ void RemeshSizes::cover(const Column<VertexId, std::uint8_t>& covered, const Run
       at_[b] = std::min(at_[b], size);
     }
   }
-  const double across = options.gap_cells > 0.0 ? 1.0 / (options.gap_cells * options.refinement) : 0.0;
-  const double through = is_automatic(options.thickness_factor) ? 0.0 : options.thickness_factor / options.refinement;
+  const double across = options.sizes.gap_cells > 0.0 ? 1.0 / (options.sizes.gap_cells * options.sizes.refinement) : 0.0;
+  const double through = is_automatic(options.sizes.thickness_factor) ? 0.0 : options.sizes.thickness_factor / options.sizes.refinement;
   if (across > 0.0 || through > 0.0) {
     const TriangleTree tree(wall, context);
     std::vector<double> found(wall.n_triangles(), k_unbounded);
@@ -203,7 +198,7 @@ void RemeshSizes::cover(const Column<VertexId, std::uint8_t>& covered, const Run
         for (const VertexId v : wall.triangles[t]) at_[v] = std::min(at_[v], found[t.index()]);
   }
   if (!requested_.samples.empty()) {
-    const SizePointTree size_points(requested_.samples, (options.growth - 1.0), context);
+    const SizePointTree size_points(requested_.samples, (options.sizes.growth - 1.0), context);
     parallel_for(context, at_.size(), [&](std::size_t v) {
       at_[VertexId(v)] = std::min(at_[VertexId(v)], size_points.smallest(wall.points[VertexId(v)], {.cap = largest_ * refinement_}) / refinement_);
     });

@@ -23,7 +23,7 @@ struct SurfaceLimits {
 /// Limits of each triangle. The automatic longest edge is computed for each connected piece.
 class SurfaceLimitTable {
  public:
-  SurfaceLimitTable(Borrowed<const TriMesh> wall, const Topology& topology, const RemeshOptions& options, std::span<const PatchSurfaceOptions> rules);
+  SurfaceLimitTable(Borrowed<const TriMesh> wall, const Topology& topology, const RemeshOptions& options, std::span<const Rule> rules);
   const SurfaceLimits& of(TriangleId t) const { return limits_[pieces_.component[t]][wall_.triangle_patch[t].index()]; }
   /// Returns the shortest target edge in metres that is possible anywhere.
   double least() const;
@@ -38,7 +38,7 @@ class RemeshSizes {
  public:
   /// Computes the sizes required by options, patches, curvature, gaps and `requested`.
   /// \throws Error(bad_argument) like remesh_surface
-  RemeshSizes(Borrowed<const Reference> reference, const RemeshOptions& options, std::span<const PatchSurfaceOptions> patches, const SpaceSizes& requested,
+  RemeshSizes(Borrowed<const Reference> reference, const RemeshOptions& options, std::span<const Rule> patches, const SpaceSizes& requested,
               const RunContext& context);
 
   /// Returns the size in metres at a point on or near a triangle of the reference. Thread-safe, unless there is a user function (is_serial).
@@ -62,7 +62,7 @@ class RemeshSizes {
  private:
   const Reference& r_;
   RemeshOptions options_;
-  std::vector<PatchSurfaceOptions> patches_;
+  std::vector<Rule> patches_;
   SpaceSizes requested_;
   double refinement_ = 1.0, slope_ = 0.2, largest_ = 0.0;
   Column<TriangleId, double> cap_, min_edge_, own_;  ///< own: size required by the curvature of the triangle's edges
@@ -71,6 +71,6 @@ class RemeshSizes {
 };
 
 /// Returns the shortest edge in metres that options require anywhere. It is known before the sizes, and is the length over which turns of lines are measured.
-double least_edge(const TriMesh& wall, const RemeshOptions& options, std::span<const PatchSurfaceOptions> patches, const RunContext& context);
+double least_edge(const TriMesh& wall, const RemeshOptions& options, std::span<const Rule> patches, const RunContext& context);
 
 }  // namespace sterna::surfmesh

@@ -66,26 +66,26 @@ struct Trouble {
 };
 
 void require_few(double n, double factor, const char* what, const RemeshOptions& options) {
-  if (n <= factor * static_cast<double>(options.max_triangles)) return;
+  if (n <= factor * static_cast<double>(options.sizes.max_triangles)) return;
   throw Error({.code = ErrorCode::overflow,
                .attempted = std::string(k_attempted),
-               .problem = what + std::to_string(static_cast<std::int64_t>(n)) + " triangles, max_triangles is " + std::to_string(options.max_triangles),
+               .problem = what + std::to_string(static_cast<std::int64_t>(n)) + " triangles, max_triangles is " + std::to_string(options.sizes.max_triangles),
                .hint = std::string(k_fewer_triangles_hint)});
 }
 
 void split_long(Remesher& remesher, const RemeshOptions& options) {
-  const double allowed = k_halving_share * static_cast<double>(std::max<std::int64_t>(options.max_triangles, remesher.n_triangles()));
+  const double allowed = k_halving_share * static_cast<double>(std::max<std::int64_t>(options.sizes.max_triangles, remesher.n_triangles()));
   const double held = k_memory_share * available_memory() / k_bytes_of_triangle;
   const auto most = static_cast<std::int64_t>(std::min(allowed, std::max(held, static_cast<double>(remesher.n_triangles()) + 1.0)));
   remesher.split_long(k_long, most);
   const std::int64_t n = remesher.n_triangles();
   if (n < most) return;
-  ErrorInfo info{
-      .code = ErrorCode::overflow,
-      .attempted = std::string(k_attempted),
-      .problem = "halving long edges did not end at " + std::to_string(n) + " triangles, " +
-                 (held < allowed ? "more triangles would exceed the free memory of this machine" : "max_triangles is " + std::to_string(options.max_triangles)),
-      .hint = std::string(k_fewer_triangles_hint)};
+  ErrorInfo info{.code = ErrorCode::overflow,
+                 .attempted = std::string(k_attempted),
+                 .problem = "halving long edges did not end at " + std::to_string(n) + " triangles, " +
+                            (held < allowed ? "more triangles would exceed the free memory of this machine"
+                                            : "max_triangles is " + std::to_string(options.sizes.max_triangles)),
+                 .hint = std::string(k_fewer_triangles_hint)};
   if (const auto [location, length] = remesher.shortest_to_halve(k_long); length > 0.0)
     info.add_location(location, "edge of " + number_text(length, k_length_digits) + " m, longer than the requested length there");
   throw Error(std::move(info));
@@ -93,7 +93,7 @@ void split_long(Remesher& remesher, const RemeshOptions& options) {
 
 void narrow_strips(const Remesher& remesher, const RemeshOptions& options, RemeshSizes& sizes) {
   for (const Remesher::Strip& strip : remesher.strips()) {
-    const double size = std::max(options.narrow / options.refinement * strip.width, k_least_in_strips * sizes.min_edge(strip.triangle));
+    const double size = std::max(options.sizes.narrow / options.sizes.refinement * strip.width, k_least_in_strips * sizes.min_edge(strip.triangle));
     if (size < sizes(strip.point, strip.triangle)) sizes.lower(strip.triangle, strip.point, size);
   }
   sizes.carry();
@@ -253,12 +253,12 @@ void require_likeness(const RemeshReport& report, const RemeshDemand& demand) {
   throw Error(std::move(info));
 }
 
-RemeshResult remesh_surface(const TriMesh& wall, const RemeshOptions& options, std::span<const PatchSurfaceOptions> patches, const SpaceSizes& requested,
+RemeshResult remesh_surface(const TriMesh& wall, const RemeshOptions& options, std::span<const Rule> patches, const SpaceSizes& requested,
                             const RunContext& context) {
   return remesh_surface(wall, options, patches, requested, RemeshDemand{}, context);
 }
 
-RemeshResult remesh_surface(const TriMesh& given, const RemeshOptions& options, std::span<const PatchSurfaceOptions> patches, const SpaceSizes& requested,
+RemeshResult remesh_surface(const TriMesh& given, const RemeshOptions& options, std::span<const Rule> patches, const SpaceSizes& requested,
                             const RemeshDemand& demand, const RunContext& context) {
   const StageTimer timer(context, "remesh");
   require_clear(given, context);

@@ -19,24 +19,9 @@ namespace sterna::surfmesh {
 
 /// Names and meanings are those of SurfaceMeshOptions. Its options for wings and CAD faces do not apply to a triangulation.
 struct RemeshOptions {
-  double max_edge = k_automatic;
-  double min_edge = k_automatic;
-  double curvature_angle = 12.0 * std::numbers::pi / 180.0;
-  double chord_error = k_automatic;
-  double growth = 1.2;
-  double refinement = 1.0;
-  double narrow = 2.0;
-  double gap_cells = 0.0;
-  double thickness_factor = k_automatic;
+  SurfaceSizeOptions sizes;
   double feature_angle = 40.0 * std::numbers::pi / 180.0;
   bool smooth = true;
-  int max_triangles = 100'000'000;
-  double leading_edge_chordwise = k_automatic;
-  double leading_edge_stretch = k_automatic;
-  double leading_edge_growth = 1.2;
-  double trailing_edge_chordwise = k_automatic;
-  double trailing_edge_stretch = k_automatic;
-  double trailing_edge_growth = 1.2;
 };
 
 /// Rows of stretched triangles at leading and trailing edges.
@@ -103,7 +88,7 @@ struct RemeshResult {
 /// \throws Error(bad_argument) for sizes that are not positive, a rule that matches no patch or sets trailing_edge_cells or factors;
 /// Error(non_manifold_surface); Error(self_intersection) if the input crosses itself or most of the result does; Error(overflow) for more than max_triangles,
 /// before the work; Error(cancelled)
-RemeshResult remesh_surface(const TriMesh& wall, const RemeshOptions& options, std::span<const PatchSurfaceOptions> patches, const SpaceSizes& requested,
+RemeshResult remesh_surface(const TriMesh& wall, const RemeshOptions& options, std::span<const Rule> patches, const SpaceSizes& requested,
                             const RunContext& context);
 
 /// Returns several human-readable lines.
@@ -133,54 +118,13 @@ template <>
 struct Schema<surfmesh::RemeshOptions> {
   using O = surfmesh::RemeshOptions;
   static constexpr std::string_view stage = "remesh";
+  static constexpr surfmesh::SizeTexts texts = {
+      .automatic_max_edge = "for each connected piece: a twentieth of the root of its area, at least a thousandth of its length",
+      .automatic_min_edge = "2 % of the longest edge; a quarter of that where chord_error needs it",
+      .chord_error = "largest distance between the midpoint of an edge and the curved surface; edges are made short enough for this, by the curvature",
+      .narrow = "largest edge length along a narrow strip between lines, in widths of the strip (never below a fifth of min_edge)",
+      .gap_cells = "number of edges across a gap between opposite parts of the surface; 0: gaps are ignored"};
   static constexpr std::array own_fields = {
-      Field<O>{.name = "max_edge",
-               .member = &O::max_edge,
-               .unit = Unit::metre,
-               .min = 1e-9,
-               .help = "largest edge length",
-               .automatic = "for each connected piece: a twentieth of the root of its area, at least a thousandth of its length"},
-      Field<O>{.name = "min_edge",
-               .member = &O::min_edge,
-               .unit = Unit::metre,
-               .min = 0.0,
-               .help = "smallest edge length that curvature and narrow regions may require",
-               .automatic = "2 % of the longest edge; a quarter of that where chord_error needs it"},
-      Field<O>{.name = "curvature_angle",
-               .member = &O::curvature_angle,
-               .unit = Unit::radian,
-               .min = 0.001,
-               .max = 1.6,
-               .help = "largest angle by which the surface turns along an edge"},
-      Field<O>{.name = "chord_error",
-               .member = &O::chord_error,
-               .unit = Unit::metre,
-               .min = 1e-9,
-               .help = "largest distance between the midpoint of an edge and the curved surface; edges are made short enough for this, by the curvature",
-               .automatic = "no limit"},
-      Field<O>{.name = "growth", .member = &O::growth, .min = 1.01, .max = 3.0, .help = "largest ratio of the lengths of consecutive edges"},
-      Field<O>{.name = "refinement",
-               .member = &O::refinement,
-               .min = 0.01,
-               .max = 100.0,
-               .help = "divisor of lengths, angles and growth - 1: 1.5 for the next finer mesh of a family; give volume_mesh the same value",
-               .choices = "extra_coarse=0.4444444444444444 coarse=0.6666666666666666 medium=1 fine=1.5 extra_fine=2.25"},
-      Field<O>{.name = "narrow",
-               .member = &O::narrow,
-               .min = 0.1,
-               .max = 100.0,
-               .help = "largest edge length along a narrow strip between lines, in widths of the strip (never below a fifth of min_edge)"},
-      Field<O>{.name = "gap_cells",
-               .member = &O::gap_cells,
-               .min = 0.0,
-               .max = 20.0,
-               .help = "number of edges across a gap between opposite parts of the surface; 0: gaps are ignored"},
-      Field<O>{.name = "thickness_factor",
-               .member = &O::thickness_factor,
-               .min = 0.1,
-               .max = 100.0,
-               .help = "largest edge length relative to the thickness of the part",
-               .automatic = "no limit"},
       Field<O>{.name = "feature_angle",
                .member = &O::feature_angle,
                .unit = Unit::radian,
@@ -192,13 +136,9 @@ struct Schema<surfmesh::RemeshOptions> {
                .help = "place new vertices on a curved surface through the input vertices, so that a coarse triangulation of a smooth body becomes smooth; "
                        "false: on the "
                        "input triangles"},
-      Field<O>{.name = "max_triangles",
-               .member = &O::max_triangles,
-               .min = 1,
-               .max = 2e9,
-               .help = "largest number of triangles; more are an error, reported before meshing if the sizes predict it"},
   };
-  static constexpr auto fields = joined(own_fields, surfmesh::edge_row_fields<O>(surfmesh::k_no_rows, surfmesh::k_no_row_stretch));
+  static constexpr auto fields =
+      joined(surfmesh::length_fields<O>(texts), surfmesh::gap_fields<O>(texts), own_fields, surfmesh::count_fields<O>(), surfmesh::edge_row_fields<O>());
 };
 
 }  // namespace sterna

@@ -235,18 +235,18 @@ int main(int argc, char** argv) {
   for (int i = 1; i < argc; ++i) {
     const auto number = [&] { return i + 1 < argc ? std::strtod(argv[++i], nullptr) : 0.0; };
     const auto is = [&](const char* option) { return std::strcmp(argv[i], option) == 0; };
-    if (is("-max")) settings.options.max_edge = number();
-    else if (is("-angle")) settings.options.curvature_angle = number() * k_deg;
-    else if (is("-growth")) settings.options.growth = number();
-    else if (is("-refine")) settings.options.refinement = number();
-    else if (is("-narrow")) settings.options.narrow = number();
-    else if (is("-gaps")) settings.options.gap_cells = number();
-    else if (is("-thickness")) settings.options.thickness_factor = number();
+    if (is("-max")) settings.options.sizes.max_edge = number();
+    else if (is("-angle")) settings.options.sizes.curvature_angle = number() * k_deg;
+    else if (is("-growth")) settings.options.sizes.growth = number();
+    else if (is("-refine")) settings.options.sizes.refinement = number();
+    else if (is("-narrow")) settings.options.sizes.narrow = number();
+    else if (is("-gaps")) settings.options.sizes.gap_cells = number();
+    else if (is("-thickness")) settings.options.sizes.thickness_factor = number();
     else if (is("-intersection")) settings.options.intersection_factor = number();
     else if (is("-wing")) settings.options.leading_edge_factor = settings.options.trailing_edge_factor = number();
     else if (is("-nostrips")) settings.options.tip_strips = false;
     else if (is("-threads")) settings.threads = static_cast<int>(number());
-    else if (is("-limit")) settings.options.max_triangles = static_cast<int>(number());
+    else if (is("-limit")) settings.options.sizes.max_triangles = static_cast<int>(number());
     else if (is("-nocheck")) settings.options.crossings = "ignore";
     else if (is("-strict")) settings.options.crossings = "error";
     else if (is("-parts")) settings.has_parts = true;

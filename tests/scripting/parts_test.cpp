@@ -31,8 +31,8 @@ ModelValue tunnel() {
 }
 SurfaceRecipe coarse() {
   SurfaceRecipe recipe;
-  recipe.options.max_edge = 0.2;
-  recipe.options.curvature_angle = 0.4;
+  recipe.options.sizes.max_edge = 0.2;
+  recipe.options.sizes.curvature_angle = 0.4;
   return recipe;
 }
 SurfaceValue meshed(const std::vector<ModelValue>& models) {

@@ -5,29 +5,21 @@
 #include <string>
 
 #include "geom/base/error.h"
-#include "geom/base/glob.h"
 #include "geom/base/print_text.h"
 #include "geom/math/measures.h"
+#include "volmesh/case/layer_rules.h"
 
 namespace sterna::volmesh {
 namespace {
 
 constexpr double k_side_share = 1e-6;  ///< distance within which a patch lies in a side of a domain's box, as a fraction of the box's longest side
 
-/// Returns the kind of a patch according to the patch rules; the last matching rule is used.
-PatchKind kind_of_patch(const Patch& patch, const MeshCase& options) {
-  PatchKind kind = patch.kind;
-  for (const PatchRule& rule : options.patches)
-    if (rule.kind != PatchRule{}.kind && matches_glob(patch.name, rule.names)) kind = patch_kind_of(rule.kind, "setting the kinds of patches");
-  return kind;
-}
-
 bool is_wake_unrefined(const TriMesh& surface, const MeshCase& options) {
   const std::string& shape = options.farfield.farfield_shape;
   if (!options.sources.empty() || !options.wakes.empty() || shape == "none" || shape == "surface") return false;
   bool has_walls = false;
   for (const Patch& patch : surface.patches) {
-    const PatchKind kind = kind_of_patch(patch, options);
+    const PatchKind kind = with_kind(patch, options.patches).kind;
     if (kind == PatchKind::inflow || kind == PatchKind::outflow || kind == PatchKind::farfield) return false;
     has_walls |= kind == PatchKind::wall;
   }
@@ -123,7 +115,7 @@ MeshCase with_family_wake(const TriMesh& surface, MeshCase options, const RunCon
   if (!needs_family_wake(options.family) || !is_wake_unrefined(surface, options)) return options;
   const BodyWake wake;
   TriMesh walls = surface;
-  for (Patch& patch : walls.patches) patch.kind = kind_of_patch(patch, options);
+  for (Patch& patch : walls.patches) patch.kind = with_kind(patch, options.patches).kind;
   const SizeSource source = wake_behind(walls, wake);
   const double f = options.family.refinement;
   context.info(

@@ -10,6 +10,16 @@
 
 namespace sterna::volmesh {
 
+/// User settings for one side of the outer shape. The sides are x_min to z_max for a box; start, end and side for a cylinder; patch names for other shapes.
+/// Planes in which bodies end are also sides. They are called symmetry, or if there are several, symmetry_y, symmetry_z, symmetry_y_min and so on.
+struct SideRule {
+  std::string side;
+  std::string name;  ///< name of the side's patch; empty: the name of the kind
+  PatchKind kind = PatchKind::farfield;
+  bool has_kind = false;      ///< false: `kind` was not given
+  double edge = k_automatic;  ///< m
+};
+
 struct FarfieldOptions {
   std::string farfield_shape = "automatic";
   double farfield_radius = k_automatic;
@@ -24,18 +34,8 @@ struct FarfieldOptions {
   double farfield_to_y = k_automatic;
   double farfield_to_z = k_automatic;
   std::string farfield_floor;
-  std::string farfield_sides;
+  std::vector<SideRule> farfield_sides;  ///< sides with other settings than the farfield; each side occurs once
   std::string farfield_surface;
-};
-
-/// User settings for one side of the outer shape. The sides are x_min to z_max for a box; start, end and side for a cylinder; patch names for other shapes.
-/// Planes in which bodies end are also sides. They are called symmetry, or if there are several, symmetry_y, symmetry_z, symmetry_y_min and so on.
-struct SideRule {
-  std::string side;
-  std::string name;  ///< name of the side's patch; empty: the name of the kind
-  PatchKind kind = PatchKind::farfield;
-  bool has_kind = false;      ///< false: `kind` was not given
-  double edge = k_automatic;  ///< m
 };
 
 /// Parses rules such as "x_min=inflow x_max=outflow,name:exit,edge:0.5 z_min=slip".
@@ -124,7 +124,7 @@ struct Schema<volmesh::FarfieldOptions> {
                .help = "name or pattern of the patches of an open floor surface (terrain): the box gets sides upwards from the border of the floor, and a lid; "
                        "empty: no floor"},
       Field<O>{.name = "farfield_sides",
-               .member = &O::farfield_sides,
+               .member = text_option<&O::farfield_sides, volmesh::parse_sides, volmesh::sides_text>(),
                .help = "kinds, names and edge lengths of the farfield sides, as SIDE=KIND[,name:NAME][,edge:LENGTH] separated by blanks, e.g. \"x_min=inflow "
                        "x_max=outflow,name:exit,edge:0.5\". Sides of a box: x_min to z_max; of a cylinder: start, end, side; of a farfield surface: its "
                        "patches; symmetry plane of a half model: symmetry; empty: all sides have kind farfield"},

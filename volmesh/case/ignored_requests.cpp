@@ -14,11 +14,10 @@
 #include "geom/base/glob.h"
 #include "geom/base/number_text.h"
 #include "geom/mesh/bvh.h"
+#include "volmesh/case/layer_rules.h"
 
 namespace sterna::volmesh {
 namespace {
-
-const PatchRule k_nothing;
 
 std::string joined(const std::vector<std::string>& texts, const char* between) {
   std::string text;
@@ -27,29 +26,26 @@ std::string joined(const std::vector<std::string>& texts, const char* between) {
 }
 
 /// Returns the layer options that the rule sets, as the user writes them. Returns an empty list if it sets none.
-std::vector<std::string> layer_requests(const PatchRule& rule) {
+std::vector<std::string> layer_requests(const Rule& given) {
+  Rule rule = given;
   std::vector<std::string> requests;
-  const auto add = [&](const char* name, const std::string& value) { requests.push_back(std::string(name) + " = " + value); };
-  const auto add_length = [&](const char* name, double value) {
-    if (!is_automatic(value)) add(name, number_text(value));
-  };
-  if (rule.layers > 0) add("layers", std::to_string(rule.layers));
-  add_length("first_height", rule.first_height);
-  add_length("max_growth", rule.max_growth);
-  add_length("total_height", rule.total_height);
-  add_length("max_thickness", rule.max_thickness);
-  add_length("blend", rule.blend);
-  if (rule.open_ridges == "always") add("open_ridges", "\"always\"");
-  if (rule.truncate == "auto" || rule.truncate == "always") add("truncate", '"' + rule.truncate + '"');
+  for (const Option& option : layer_rule_options(rule)) {
+    if (!is_set(rule, option.name) || option.name == "kind") continue;
+    const OptionValue value = option.get();
+    const auto add = [&](const std::string& text) { requests.push_back(std::string(option.name) + " = " + text); };
+    if (const auto* number = std::get_if<double>(&value)) add(number_text(*number));
+    else if (const auto* count = std::get_if<std::int64_t>(&value); count && *count > 0) add(std::to_string(*count));
+    else if (const auto* word = std::get_if<std::string>(&value); word && *word != "never") add('"' + *word + '"');
+  }
   return requests;
 }
 
 /// Returns true if the rule removes the layers of its patches, whatever other rules set.
-bool ends_layers(const PatchRule& rule) { return rule.layers == 0 || (rule.kind != k_nothing.kind && rule.kind != "wall"); }
+bool ends_layers(const Rule& rule) { return value_or(rule, "layers", k_automatic_count) == 0 || value_or(rule, "kind", std::string("wall")) != "wall"; }
 
 /// Returns true if the program derived the rule from the length of a placed part, so the user has not given it.
-bool is_of_part(const PatchRule& rule, std::size_t n_requests, const MeshCase& options) {
-  return !options.parts.empty() && n_requests == 1 && !is_automatic(rule.max_thickness);
+bool is_of_part(const Rule& rule, std::size_t n_requests, const MeshCase& options) {
+  return !options.parts.empty() && n_requests == 1 && is_set(rule, "max_thickness");
 }
 
 /// A rule and its effect on the patches whose names match it.
@@ -60,7 +56,7 @@ struct RuleUse {
   bool is_no_wall = false;           ///< one of the matching patches is not of kind wall
 };
 
-RuleUse use_of(std::size_t i, const Column<PatchId, Patch>& patches, const Column<PatchId, std::uint8_t>& has_layer, std::span<const PatchRule> rules) {
+RuleUse use_of(std::size_t i, const Column<PatchId, Patch>& patches, const Column<PatchId, std::uint8_t>& has_layer, std::span<const Rule> rules) {
   RuleUse use;
   for (const PatchId p : patches.ids()) {
     const Patch& patch = patches[p];
@@ -70,7 +66,7 @@ RuleUse use_of(std::size_t i, const Column<PatchId, Patch>& patches, const Colum
       continue;
     }
     const bool is_later = std::any_of(rules.begin() + static_cast<std::ptrdiff_t>(i) + 1, rules.end(),
-                                      [&](const PatchRule& later) { return ends_layers(later) && matches_glob(patch.name, later.names); });
+                                      [&](const Rule& later) { return ends_layers(later) && matches_glob(patch.name, later.names); });
     use.is_replaced = use.is_replaced && is_later && !ends_layers(rules[i]);
     const bool is_wall = patch.kind == PatchKind::wall;
     use.is_no_wall = use.is_no_wall || !is_wall;
@@ -83,21 +79,19 @@ RuleUse use_of(std::size_t i, const Column<PatchId, Patch>& patches, const Colum
 void warn_of_unused_options(const Column<PatchId, Patch>& patches, const Column<PatchId, std::uint8_t>& has_layer, const MeshCase& options,
                             const RunContext& context) {
   const EnvelopeOptions& all = options.envelope;
-  const auto is_used = [&](double PatchRule::*member) {
-    for (const PatchId p : patches.ids()) {
-      const auto replaces = [&](const PatchRule& rule) { return !is_automatic(rule.*member) && matches_glob(patches[p].name, rule.names); };
-      if (has_layer[p] != 0 && std::ranges::none_of(options.patches, replaces)) return true;
-    }
+  const auto is_used = [&](const char* name) {
+    for (const PatchId p : patches.ids())
+      if (has_layer[p] != 0 && !rule_for(patches[p].name, options.patches, name)) return true;
     return false;
   };
   const bool has_layers = std::ranges::find(has_layer.raw(), 1) != has_layer.raw().end();
   const std::string why = has_layers ? "patch rules replace this value on each patch with layers; leave out the value or the rules" : "no patch carries layers";
-  const auto warn_unless_used = [&](const char* name, double value, double PatchRule::*member) {
-    if (!is_automatic(value) && !is_used(member)) context.warn(std::string(name) + " = " + number_text(value) + " of all walls has no effect: " + why);
+  const auto warn_unless_used = [&](const char* name, double value) {
+    if (!is_automatic(value) && !is_used(name)) context.warn(std::string(name) + " = " + number_text(value) + " of all walls has no effect: " + why);
   };
-  if (!options.first_heights) warn_unless_used("first_height", all.first_height, &PatchRule::first_height);
-  warn_unless_used("total_height", all.total_height, &PatchRule::total_height);
-  warn_unless_used("max_thickness", all.max_thickness, &PatchRule::max_thickness);
+  if (!options.first_heights) warn_unless_used("first_height", all.first_height);
+  warn_unless_used("total_height", all.total_height);
+  warn_unless_used("max_thickness", all.max_thickness);
 }
 
 /// A group of options and the farfield shape it belongs to.

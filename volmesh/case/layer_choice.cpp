@@ -21,7 +21,7 @@ Error bad(std::string_view where, std::string problem, std::string hint) {
 }
 
 /// Returns the smallest number of layers that reaches the height; more than k_most_layers if none does.
-int fewest_layers(const LayerChoice& c) {
+int fewest_layers(const EnvelopeOptions& c) {
   int n = 1;
   while (n <= k_most_layers && layer_height(c.first_height, c.max_growth, n) < c.total_height * (1.0 - k_rounding)) ++n;
   return n;
@@ -35,17 +35,23 @@ int refined_layers(double f, int layers) {
   return layers == 0 || is_automatic(layers) ? layers : std::clamp(static_cast<int>(std::lround(f * layers)), 1, k_most_layers);
 }
 
+void refine(double f, Rule& rule) {
+  for (auto& [option, value] : rule.options) {
+    if (option == "first_height") refine(f, std::get<double>(value));
+    if (option == "max_growth") value = refined_growth(f, std::get<double>(value));
+    if (option == "layers") value = std::int64_t{refined_layers(f, static_cast<int>(std::get<std::int64_t>(value)))};
+  }
+}
+
 void refine(double f, FarfieldOptions& farfield) {
   if (is_automatic(farfield.farfield_edge)) farfield.farfield_edge = -1.0 / f;
   else farfield.farfield_edge /= f;
-  std::vector<SideRule> sides = parse_sides(farfield.farfield_sides);
-  for (SideRule& side : sides) refine(f, side.edge);
-  farfield.farfield_sides = sides_text(sides);
+  for (SideRule& side : farfield.farfield_sides) refine(f, side.edge);
 }
 
 }  // namespace
 
-LayerChoice solve_layers(LayerChoice c, std::string_view solve_for, std::string_view where) {
+EnvelopeOptions solve_layers(EnvelopeOptions c, std::string_view solve_for, std::string_view where) {
   if (is_automatic(c.total_height) || is_automatic(c.first_height) || c.layers == 0) return c;
   const std::string heights = print_text("a total height of %.6g m with a first height of %.6g m", c.total_height, c.first_height);
   if (c.total_height < c.first_height * (1.0 - k_rounding)) throw bad(where, heights + " leaves no room for one layer", "raise total_height");
@@ -89,11 +95,7 @@ MeshCase refined(MeshCase options) {
   refine(f, options.envelope.first_height);
   options.envelope.max_growth = refined_growth(f, options.envelope.max_growth);
   options.envelope.layers = refined_layers(f, options.envelope.layers);
-  for (PatchRule& rule : options.patches) {
-    refine(f, rule.first_height);
-    if (!is_automatic(rule.max_growth)) rule.max_growth = refined_growth(f, rule.max_growth);
-    if (rule.layers > 0) rule.layers = refined_layers(f, rule.layers);
-  }
+  for (Rule& rule : options.patches) refine(f, rule);
   refine(f, options.farfield);
   options.ends.size_growth = 1.0 + (options.ends.size_growth - 1.0) / f;
   options.size.size_growth = 1.0 + (options.size.size_growth - 1.0) / f;
@@ -127,15 +129,13 @@ MeshCase effective_options(const MeshCase& user_options, const RunContext& conte
       throw bad("all walls", "max_growth is to follow from total_height, but the number of layers is not given", "give layers, or solve_for = \"layers\"");
     e.solve_for = "layers";
   }
-  const LayerChoice solved = solve_layers({e.layers, e.first_height, e.max_growth, e.total_height}, e.solve_for, "all walls");
+  e = solve_layers(e, e.solve_for, "all walls");
   if (e.solve_for == "layers")
-    context.info(print_text("%d layers reach the total height of %.6g m with a growth of %.4g, first height %.6g m", solved.layers, e.total_height,
-                            growth_for_height(e.first_height, e.total_height, solved.layers), e.first_height));
+    context.info(print_text("%d layers reach the total height of %.6g m with a growth of %.4g, first height %.6g m", e.layers, e.total_height,
+                            growth_for_height(e.first_height, e.total_height, e.layers), e.first_height));
   if (e.solve_for == "max_growth")
-    context.info(print_text("%d layers grow by %.4g to the total height of %.6g m, first height %.6g m", solved.layers, solved.max_growth, e.total_height,
-                            e.first_height));
-  e.layers = solved.layers;
-  e.max_growth = solved.max_growth;
+    context.info(
+        print_text("%d layers grow by %.4g to the total height of %.6g m, first height %.6g m", e.layers, e.max_growth, e.total_height, e.first_height));
   return options;
 }
 

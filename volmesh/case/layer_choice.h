@@ -11,21 +11,12 @@
 
 namespace sterna::volmesh {
 
-/// Layers with first height h0, number n, largest growth r and total height H. An automatic H follows from the edges of the wall, eq. (1) of
-/// docs/method/envelope.md, "Heights".
-struct LayerChoice {
-  int layers = 0;
-  double first_height = k_automatic;  ///< m
-  double max_growth = 0.0;
-  double total_height = k_automatic;  ///< m
-};
-
-/// Solves for the parameter named by `solve_for`. "layers" gives the smallest number that reaches H with growth of at most r. "max_growth" gives the growth
-/// with which n layers reach H. "none" only checks that the parameters are consistent. Without H nothing changes. \p where names the patch or the walls in
-/// messages.
-/// \post n h0 <= H <= the height of n layers that grow by r
+/// Solves for the parameter named by `solve_for` among the number n of layers, the largest growth r and the total height H of layers with first height h0.
+/// "layers" gives the smallest number that reaches H with growth of at most r. "max_growth" gives the growth with which n layers reach H. "none" only checks
+/// that the parameters are consistent. Nothing changes if H is automatic: then H follows from the edges of the wall, eq. (1) of docs/method/envelope.md,
+/// "Heights". \p where names the patch or the walls in messages. \post n h0 <= H <= the height of n layers that grow by r
 /// \throws Error(bad_argument) if no such layer exists; the message contains numbers that would work
-LayerChoice solve_layers(LayerChoice requested, std::string_view solve_for, std::string_view where);
+EnvelopeOptions solve_layers(EnvelopeOptions requested, std::string_view solve_for, std::string_view where);
 
 /// Returns the value of solve_for if only some of the three parameters are given: "layers" or "max_growth", or "none" if the total height is not given.
 /// \throws Error(bad_argument) if all three or only the total height are given

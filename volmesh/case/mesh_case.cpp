@@ -27,8 +27,9 @@ OptionTable options_of(MeshOptions& options) { return options_of(options, k_enve
 
 OptionTable required_options_of(MeshCase& mesh_case) {
   OptionTable table = options_of(mesh_case);
-  const bool has_own = std::ranges::any_of(mesh_case.patches, [](const PatchRule& rule) { return !is_automatic(rule.first_height); }) ||
-                       (mesh_case.envelope.layers == 0 && std::ranges::none_of(mesh_case.patches, [](const PatchRule& rule) { return rule.layers > 0; }));
+  const std::vector<Rule>& rules = mesh_case.patches;
+  const bool has_own = std::ranges::any_of(rules, [](const Rule& rule) { return is_set(rule, "first_height"); }) ||
+                       (mesh_case.envelope.layers == 0 && std::ranges::none_of(rules, [](const Rule& rule) { return value_or(rule, "layers", 0) > 0; }));
   for (Option& option : table)
     if (option.name == "first_height" && has_own) option.required = false;
   return table;

@@ -4,7 +4,8 @@
 #include <memory>
 #include <vector>
 
-#include "geom/base/schema.h"
+#include "geom/base/rules.h"
+#include "geom/mesh/periodic_names.h"
 #include "geom/mesh/tri_mesh.h"
 #include "volmesh/case/actuator_disc.h"
 #include "volmesh/case/end_options.h"
@@ -14,8 +15,6 @@
 #include "volmesh/case/first_heights.h"
 #include "volmesh/case/improve_options.h"
 #include "volmesh/case/limit_options.h"
-#include "volmesh/case/patch_rule.h"
-#include "volmesh/case/periodic_names.h"
 #include "volmesh/case/placed_part.h"
 #include "volmesh/case/prism_options.h"
 #include "volmesh/case/ridge_options.h"
@@ -47,7 +46,7 @@ struct MeshFacts {
   /// First heights that depend on the location, for patches whose rules set none. Null: envelope.first_height applies. If set, envelope.first_height is their
   /// minimum.
   std::shared_ptr<const FirstHeights> first_heights;
-  std::vector<PatchRule> patches;                   ///< settings for patches; if several rules match, the last one is used (sort_by_pattern)
+  std::vector<Rule> patches;                        ///< options of patches (layer_rules.h); if several rules match, the last one is used (sort_by_pattern)
   std::shared_ptr<const TriMesh> farfield_surface;  ///< outer boundary for the farfield shape "surface"
   std::vector<SizeSource> sources;                  ///< sources of the size field
   std::vector<ActuatorDisc> discs;                  ///< actuator discs in the fluid

@@ -325,7 +325,7 @@ TriMesh complete_over_floor(const TriMesh& surface, const Topology& topology, co
                             std::vector<AddedPlane>* planes) {
   TriMesh mesh = surface;
   const FloorBox floor = fit_floor(topology, options, mesh);
-  const std::vector<SideRule> rules = parse_sides(options.farfield_sides);
+  const std::vector<SideRule>& rules = options.farfield_sides;
   const std::size_t lid_side = 2 * floor.up + 1;
   TriMesh lid = box_side(floor.box, floor.edges, lid_side, context);
   std::vector<Patch> patches;
@@ -367,11 +367,8 @@ TriMesh complete_boundary(const TriMesh& surface, const OuterOptions& options, c
     choose_box(mesh, ends, outer.farfield, context);
   require_used_farfield(outer.farfield);
   const bool is_box = outer.farfield.farfield_shape == "box", has_sides = is_box || outer.farfield.farfield_shape == "cylinder";
-  std::vector<SideRule> rules = parse_sides(outer.farfield.farfield_sides);
-  if (is_box) {
-    rules = rules_for_box(std::move(rules), ends);
-    outer.farfield.farfield_sides = sides_text(rules);
-  }
+  std::vector<SideRule>& rules = outer.farfield.farfield_sides;
+  if (is_box) rules = rules_for_box(std::move(rules), ends);
   TriMesh shape;
   if (!is_enclosed) shape = make_shape(mesh, topology, outer, ends, context);
   check_rules(rules, &shape, default_patches(ends), has_sides);

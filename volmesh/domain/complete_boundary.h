@@ -5,9 +5,9 @@
 #include <vector>
 
 #include "geom/base/run_context.h"
+#include "geom/mesh/periodic_names.h"
 #include "geom/mesh/tri_mesh.h"
 #include "volmesh/case/farfield_options.h"
-#include "volmesh/case/periodic_names.h"
 
 namespace sterna::volmesh {
 

@@ -41,8 +41,7 @@ BoxSize size_of_box(const TriMesh& wall, const FarfieldOptions& options, std::sp
                    .hint = "give the lower corner first (farfield_from), then the upper corner (farfield_to)"});
   }
   const double common = common_edge(options.farfield_edge, k_default_edge * 0.5 * size.box.longest_side());
-  const std::vector<SideRule> rules = parse_sides(options.farfield_sides);
-  for (std::size_t side = 0; side < 6; ++side) size.edge[side] = edge_of_side(rules, k_box_sides[side], common);
+  for (std::size_t side = 0; side < 6; ++side) size.edge[side] = edge_of_side(options.farfield_sides, k_box_sides[side], common);
   return size;
 }
 

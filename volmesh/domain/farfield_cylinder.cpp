@@ -59,10 +59,9 @@ CylinderSize size_of_cylinder(const TriMesh& wall, const FarfieldOptions& option
   size.e2 = cross(size.axis, size.e1);
   size.radius = is_automatic(options.farfield_radius) ? k_default_radius * body_length(wall) : options.farfield_radius;
   const double common = common_edge(options.farfield_edge, k_default_edge * size.radius);
-  const std::vector<SideRule> rules = parse_sides(options.farfield_sides);
-  size.start = edge_of_side(rules, "start", common);
-  size.end = edge_of_side(rules, "end", common);
-  size.side = edge_of_side(rules, "side", common);
+  size.start = edge_of_side(options.farfield_sides, "start", common);
+  size.end = edge_of_side(options.farfield_sides, "end", common);
+  size.side = edge_of_side(options.farfield_sides, "side", common);
   size.n_start = ring_pieces(size.radius, std::min(size.start, size.side));
   size.n_end = ring_pieces(size.radius, std::min(size.end, size.side));
   return size;

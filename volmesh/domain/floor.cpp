@@ -198,9 +198,8 @@ FloorBox fit_floor(const Topology& topology, const FarfieldOptions& options, Tri
     floor.sides[n++] = {.axis = k, .at = floor.box.max[k], .inward = -1.0};
   }
   snap_border(border, floor.sides, options.farfield_floor, mesh);
-  const std::vector<SideRule> rules = parse_sides(options.farfield_sides);
   const double common = common_edge(options.farfield_edge, k_default_edge * 0.5 * floor.box.longest_side());
-  for (std::size_t side = 0; side < 6; ++side) floor.edges[side] = edge_of_side(rules, k_box_sides[side], common);
+  for (std::size_t side = 0; side < 6; ++side) floor.edges[side] = edge_of_side(options.farfield_sides, k_box_sides[side], common);
   return floor;
 }
 

@@ -6,8 +6,8 @@
 #include <vector>
 
 #include "geom/base/run_context.h"
+#include "geom/mesh/periodic_names.h"
 #include "geom/mesh/tri_mesh.h"
-#include "volmesh/case/periodic_names.h"
 
 namespace sterna::volmesh {
 

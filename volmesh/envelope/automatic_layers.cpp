@@ -48,25 +48,31 @@ int enough(std::vector<TargetLayers>& target) {
 }  // namespace
 
 int automatic_layers(const TriMesh& surface, const MeshCase& options, const RunContext& context) {
-  Column<PatchId, PatchLayers> requested;
-  for (const Patch& patch : surface.patches) requested.push_back(request_of(with_kind(patch, options.patches), options.envelope, options.patches));
-  const auto is_open = [](const PatchLayers& patch) { return is_automatic(patch.layers) && !patch.has_own_height && !is_automatic(patch.first_height); };
+  Column<PatchId, EnvelopeOptions> requested;
+  Column<PatchId, std::uint8_t> is_open;             // the number of layers follows from the triangles of the patch
+  Column<PatchId, const FirstHeights*> by_location;  // null: the patch has one first height
+  for (const Patch& patch : surface.patches) {
+    const EnvelopeOptions& layers = requested[requested.push_back(request_of(with_kind(patch, options.patches), options.envelope, options.patches))];
+    const bool has_own_height = rule_for(patch.name, options.patches, "total_height") != nullptr;
+    is_open.push_back(is_automatic(layers.layers) && !has_own_height && !is_automatic(layers.first_height) ? 1 : 0);
+    by_location.push_back(rule_for(patch.name, options.patches, "first_height") ? nullptr : options.first_heights.get());
+  }
   std::vector<TargetLayers> of_triangle(surface.n_triangles());
   parallel_for(context, surface.n_triangles(), [&](std::size_t i) {
     const TriangleId t(i);
-    const PatchLayers& patch = requested[surface.triangle_patch[t]];
-    if (!is_open(patch)) return;
+    const PatchId id = surface.triangle_patch[t];
+    const EnvelopeOptions& patch = requested[id];
+    if (is_open[id] == 0) return;
     const std::array<Point, 3> p = corners(surface, t);
     const double area = 0.5 * norm(cross(p[1] - p[0], p[2] - p[0])), edge = (distance(p[0], p[1]) + distance(p[1], p[2]) + distance(p[2], p[0])) / 3.0;
     double h0 = patch.first_height;
-    if (options.first_heights && !patch.has_own_first_height)
-      h0 = std::max({options.first_heights->at(p[0]), options.first_heights->at(p[1]), options.first_heights->at(p[2])});
+    if (const FirstHeights* heights = by_location[id]) h0 = std::max({heights->at(p[0]), heights->at(p[1]), heights->at(p[2])});
     of_triangle[i] = {layers_to_height(h0, patch.max_growth, k_target_last * k_regular_height * layer_edge_of(std::sqrt(k_equilateral * area), edge)), area};
   });
   std::map<std::pair<double, double>, std::vector<TargetLayers>> groups;  // groups of walls, keyed by first height and growth
   for (const TriangleId t : surface.triangles.ids())
-    if (const PatchLayers& patch = requested[surface.triangle_patch[t]]; is_open(patch))
-      groups[{patch.first_height, patch.max_growth}].push_back(of_triangle[t.index()]);
+    if (const PatchId id = surface.triangle_patch[t]; is_open[id] != 0)
+      groups[{requested[id].first_height, requested[id].max_growth}].push_back(of_triangle[t.index()]);
   int layers = 0;
   for (auto& [request, target] : groups) {
     const auto [first_height, growth] = request;
@@ -79,9 +85,9 @@ int automatic_layers(const TriMesh& surface, const MeshCase& options, const RunC
   }
   if (layers > 0) return layers;
   bool has_walls = false;
-  for (const PatchLayers& patch : requested) {
-    layers = std::max(layers, patch.layers);
-    has_walls = has_walls || patch.has_own_layers;
+  for (const PatchId id : requested.ids()) {
+    layers = std::max(layers, requested[id].layers);
+    has_walls = has_walls || rule_for(surface.patches[id].name, options.patches, "layers");
   }
   return has_walls ? layers : 1;
 }

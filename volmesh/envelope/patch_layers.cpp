@@ -31,7 +31,7 @@ constexpr double k_blend_edges = 8.0;  ///< smallest ratio of an automatic blend
 /// Returns true if both numbers are equal, or if both are automatic.
 bool is_same(double a, double b) { return a == b || (is_automatic(a) && is_automatic(b)); }
 
-/// Layer settings that are common to all patches of a group.
+/// Layer options that are common to all patches of a group.
 struct Group {
   double first_height, max_growth, max_thickness;
   const FirstHeights* by_location;  ///< if not null, it supplies the first height at each location, and first_height is not used
@@ -44,17 +44,29 @@ struct Group {
   bool operator==(const Group& other) const { return requests_as(other) && (blend == other.blend || (is_automatic(blend) && is_automatic(other.blend))); }
 };
 
+Group group_of(const EnvelopeOptions& layers, double blend, const FirstHeights* by_location, const LayerBase& base) {
+  const double max_thickness = thickness_limit(layers.max_thickness, layers.total_height, base.body_length);
+  return {layers.first_height, layers.max_growth, max_thickness, by_location, blend, layers.total_height};
+}
+
+/// The layer options of all patches of a base with layers, and the rules from which they follow.
+struct PatchRequests {
+  std::span<const Rule> rules;
+  const FirstHeights* by_location;
+  Column<PatchId, EnvelopeOptions> layers;
+
+  /// Returns the first heights by location if they apply to the patch, else null.
+  const FirstHeights* by_location_on(const Patch& patch) const { return rule_for(patch.name, rules, "first_height") ? nullptr : by_location; }
+  Group group(const LayerBase& base, PatchId p) const {
+    const Patch& patch = base.wall.patches[p];
+    return group_of(layers[p], resolve(PatchOptions{}, rules, patch.name).blend, by_location_on(patch), base);
+  }
+};
+
 std::vector<std::string> names_of(const Column<PatchId, Patch>& patches) {
   std::vector<std::string> names;
   for (const Patch& patch : patches) names.push_back(patch.name);
   return names;
-}
-
-PatchKind kind_of(std::string_view name) {
-  for (const PatchKind kind :
-       {PatchKind::wall, PatchKind::slip, PatchKind::symmetry, PatchKind::inflow, PatchKind::outflow, PatchKind::farfield, PatchKind::interface})
-    if (to_string(kind) == name) return kind;
-  throw Error({.code = ErrorCode::bad_argument, .attempted = "setting the kinds of patches", .problem = "unknown patch kind \"" + std::string(name) + "\""});
 }
 
 /// Returns the number of the connected part of each vertex, which is its lowest vertex. Vertices that must grow alike count as connected.
@@ -85,14 +97,14 @@ void log_part(const TriMesh& wall, const std::map<int, std::set<std::uint32_t>>&
 }
 
 /// Returns for each vertex the largest number of layers that a patch of its connected part requests.
-Column<VertexId, std::uint16_t> numbers_of_layers(const LayerBase& base, const Column<PatchId, PatchLayers>& requested, int otherwise,
+Column<VertexId, std::uint16_t> numbers_of_layers(const LayerBase& base, const Column<PatchId, EnvelopeOptions>& requested, int otherwise,
                                                   const RunContext& context) {
   const TriMesh& wall = base.wall;
   const Column<VertexId, std::uint32_t> part = parts_of(base);
   std::map<std::uint32_t, std::map<int, std::set<std::uint32_t>>> requested_of_part;
   for (const TriangleId t : wall.triangles.ids()) {
     const PatchId patch = wall.triangle_patch[t];
-    if (requested[patch].carries_layers()) requested_of_part[part[wall.triangles[t][0]]][requested[patch].layers].insert(patch.value());
+    if (carries_layers(requested[patch])) requested_of_part[part[wall.triangles[t][0]]][requested[patch].layers].insert(patch.value());
   }
   for (const auto& [number, numbers] : requested_of_part)
     if (numbers.size() > 1) log_part(wall, numbers, context);
@@ -104,45 +116,36 @@ Column<VertexId, std::uint16_t> numbers_of_layers(const LayerBase& base, const C
   return layers;
 }
 
-/// Derives the remaining setting if a total height is given. Settings of the patch itself are kept. If the patch sets neither layers nor growth, the setting
+/// Derives the remaining option if a total height is given. Options of the patch itself are kept. If the patch sets neither layers nor growth, the option
 /// that is derived for all walls is derived here; by default that is the growth, because connected walls share the number of layers.
-void solve(const std::string& of_all, const std::string& patch, PatchLayers& layers) {
-  if (!layers.carries_layers() || is_automatic(layers.total_height)) return;
-  if (!layers.has_own_layers && !layers.has_own_first_height && !layers.has_own_growth && !layers.has_own_height && of_all == "none")
-    return;  // the setting was derived for all walls, or is checked for consistency below
-  std::string solve_for = of_all == "none" ? "max_growth" : of_all;
-  if (layers.has_own_growth && !layers.has_own_layers) solve_for = "layers";
-  if (layers.has_own_layers && !layers.has_own_growth) solve_for = "max_growth";
-  if (layers.has_own_layers && layers.has_own_growth) solve_for = "none";
-  if (layers.has_own_height && !layers.has_own_layers && !layers.has_own_growth) solve_for = "max_growth";
-  const LayerChoice solved = solve_layers({layers.layers, layers.first_height, layers.max_growth, layers.total_height}, solve_for, "patch " + patch);
-  layers.layers = solved.layers;
-  layers.max_growth = solved.max_growth;
+void solve(const std::string& patch, std::span<const Rule> rules, EnvelopeOptions& layers) {
+  if (!carries_layers(layers) || is_automatic(layers.total_height)) return;
+  const auto has_own = [&](std::string_view option) { return rule_for(patch, rules, option) != nullptr; };
+  const bool has_own_layers = has_own("layers"), has_own_growth = has_own("max_growth"), has_own_height = has_own("total_height");
+  if (!has_own_layers && !has_own("first_height") && !has_own_growth && !has_own_height && layers.solve_for == "none")
+    return;  // the option was derived for all walls, or is checked for consistency below
+  std::string solve_for = layers.solve_for == "none" ? "max_growth" : layers.solve_for;
+  if (has_own_growth && !has_own_layers) solve_for = "layers";
+  if (has_own_layers && !has_own_growth) solve_for = "max_growth";
+  if (has_own_layers && has_own_growth) solve_for = "none";
+  if (has_own_height && !has_own_layers && !has_own_growth) solve_for = "max_growth";
+  layers = solve_layers(layers, solve_for, "patch " + patch);
 }
 
 class Blender {
  public:
-  Blender(const LayerBase& base, const EnvelopeOptions& options, const Column<PatchId, PatchLayers>& requested, const FirstHeights* by_location,
-          LayerDemand& demand, const RunContext& context)
-      : base_(base), demand_(demand), context_(context), has_common_growth_(has_common_growth(options)), group_of_patch_(requested.size(), -1) {
-    std::vector<std::uint8_t> is_used(requested.size(), 0);
+  Blender(const LayerBase& base, const EnvelopeOptions& options, const PatchRequests& requested, LayerDemand& demand, const RunContext& context)
+      : base_(base), demand_(demand), context_(context), has_common_growth_(has_common_growth(options)), group_of_patch_(requested.layers.size(), -1) {
+    std::vector<std::uint8_t> is_used(requested.layers.size(), 0);
     for (const PatchId patch : base.wall.triangle_patch) is_used[patch.index()] = 1;
-    for (const PatchId patch : requested.ids()) {
-      const PatchLayers& layers = requested[patch];
-      if (!layers.carries_layers() || !is_used[patch.index()]) continue;
-      const Group group{layers.first_height,
-                        layers.max_growth,
-                        thickness_limit(layers.max_thickness, layers.total_height, base.body_length),
-                        layers.has_own_first_height ? nullptr : by_location,
-                        layers.blend,
-                        layers.total_height};
+    for (const PatchId patch : requested.layers.ids()) {
+      if (!carries_layers(requested.layers[patch]) || !is_used[patch.index()]) continue;
+      const Group group = requested.group(base, patch);
       const auto found = std::find(groups_.begin(), groups_.end(), group);
       group_of_patch_[patch.index()] = static_cast<int>(found - groups_.begin());
       if (found == groups_.end()) groups_.push_back(group);
     }
-    if (groups_.empty())
-      groups_.push_back({options.first_height, options.max_growth, thickness_limit(options.max_thickness, options.total_height, base.body_length), by_location,
-                         k_automatic, options.total_height});
+    if (groups_.empty()) groups_.push_back(group_of(options, k_automatic, requested.by_location, base));
   }
 
   void blend() {
@@ -275,58 +278,30 @@ class Blender {
 
 }  // namespace
 
-void apply_patch_kinds(TriMesh& surface, std::span<const PatchRule> rules) {
-  for (const PatchRule& rule : rules) {
-    bool is_used = false;
-    for (Patch& patch : surface.patches) {
-      if (!matches_glob(patch.name, rule.names)) continue;
-      is_used = true;
-      if (rule.kind != PatchRule{}.kind) patch.kind = kind_of(rule.kind);
-    }
-    if (!is_used)
+void apply_patch_kinds(TriMesh& surface, std::span<const Rule> rules) {
+  for (const Rule& rule : rules)
+    if (std::ranges::none_of(surface.patches, [&](const Patch& patch) { return matches_glob(patch.name, rule.names); }))
       throw Error({.code = ErrorCode::bad_argument,
                    .attempted = "applying patch rules",
                    .problem = "no patch name matches \"" + rule.names + "\"",
                    .hint = names_hint(names_of(surface.patches), rule.names)});
-  }
+  for (Patch& patch : surface.patches) patch = with_kind(std::move(patch), rules);
 }
 
-Patch with_kind(Patch patch, std::span<const PatchRule> rules) {
-  for (const PatchRule& rule : rules)
-    if (rule.kind != PatchRule{}.kind && matches_glob(patch.name, rule.names)) patch.kind = kind_of(rule.kind);
-  return patch;
-}
-
-PatchLayers request_of(const Patch& patch, const EnvelopeOptions& options, std::span<const PatchRule> rules) {
-  PatchLayers layers{.layers = options.layers,
-                     .first_height = options.first_height,
-                     .max_growth = options.max_growth,
-                     .total_height = options.total_height,
-                     .max_thickness = options.max_thickness};
-  const auto take = [](double requested, double& value, bool& is_own) {
-    if (!is_automatic(requested)) value = requested, is_own = true;
-  };
-  for (const PatchRule& rule : rules) {
-    if (!matches_glob(patch.name, rule.names)) continue;
-    if (rule.layers != PatchRule::k_as_all) layers.layers = rule.layers, layers.has_own_layers = true;
-    take(rule.first_height, layers.first_height, layers.has_own_first_height);
-    take(rule.max_growth, layers.max_growth, layers.has_own_growth);
-    take(rule.total_height, layers.total_height, layers.has_own_height);
-    if (!is_automatic(rule.max_thickness)) layers.max_thickness = rule.max_thickness;
-    if (!is_automatic(rule.blend)) layers.blend = rule.blend;
-  }
+EnvelopeOptions request_of(const Patch& patch, const EnvelopeOptions& options, std::span<const Rule> rules) {
+  EnvelopeOptions layers = resolve(options, rules, patch.name);
   if (patch.kind != PatchKind::wall) layers.layers = 0;
   return layers;
 }
 
-Column<PatchId, PatchLayers> layers_of_patches(const Column<PatchId, Patch>& patches, const EnvelopeOptions& options, std::span<const PatchRule> rules) {
-  Column<PatchId, PatchLayers> result;
+Column<PatchId, EnvelopeOptions> layers_of_patches(const Column<PatchId, Patch>& patches, const EnvelopeOptions& options, std::span<const Rule> rules) {
+  Column<PatchId, EnvelopeOptions> result;
   std::string without;
   for (const Patch& patch : patches) {
-    PatchLayers layers = request_of(patch, options, rules);
-    if (layers.carries_layers() && is_automatic(layers.first_height)) without += (without.empty() ? "" : ", ") + patch.name;
-    solve(options.solve_for, patch.name, layers);
-    result.push_back(layers);
+    EnvelopeOptions layers = request_of(patch, options, rules);
+    if (carries_layers(layers) && is_automatic(layers.first_height)) without += (without.empty() ? "" : ", ") + patch.name;
+    solve(patch.name, rules, layers);
+    result.push_back(std::move(layers));
   }
   if (!without.empty())
     throw Error({.code = ErrorCode::bad_argument,
@@ -336,11 +311,12 @@ Column<PatchId, PatchLayers> layers_of_patches(const Column<PatchId, Patch>& pat
   return result;
 }
 
-/// Returns the layer settings for the patches of a part with layers. Patches of other kinds than wall (such as a nozzle at the end of its nacelle) get the
-/// settings of a wall of the same name.
-Column<PatchId, PatchLayers> layers_of_part(Column<PatchId, Patch> patches, const EnvelopeOptions& options, std::span<const PatchRule> rules) {
+/// Returns the layer options of the patches of a base with layers. Patches of other kinds than wall (such as a nozzle at the end of its nacelle) get the
+/// options of a wall of the same name.
+PatchRequests requests_of_base(const LayerBase& base, const EnvelopeOptions& options, std::span<const Rule> rules, const FirstHeights* by_location) {
+  Column<PatchId, Patch> patches = base.wall.patches;
   for (Patch& patch : patches) patch.kind = PatchKind::wall;
-  return layers_of_patches(patches, options, rules);
+  return {rules, by_location, layers_of_patches(patches, options, rules)};
 }
 
 /// Gives vertices that must grow alike the smallest of their requested values. Automatic values are not compared.
@@ -356,77 +332,71 @@ void take_least_of_groups(const std::vector<std::vector<VertexId>>& groups, Colu
   }
 }
 
-LayerDemand demand_of(const LayerBase& base, const EnvelopeOptions& options, std::span<const PatchRule> rules, const FirstHeights* by_location,
+LayerDemand demand_of(const LayerBase& base, const EnvelopeOptions& options, std::span<const Rule> rules, const FirstHeights* by_location,
                       const RunContext& context) {
-  const Column<PatchId, PatchLayers> requested = layers_of_part(base.wall.patches, options, rules);
-  const auto is_as_all = [&](const PatchLayers& layers) {
-    return !layers.carries_layers() || (!(by_location && !layers.has_own_first_height) && layers.layers == options.layers &&
-                                        layers.first_height == options.first_height && layers.max_growth == options.max_growth &&
-                                        is_same(layers.max_thickness, options.max_thickness) && is_same(layers.total_height, options.total_height));
+  const PatchRequests requested = requests_of_base(base, options, rules, by_location);
+  const auto is_as_all = [&](PatchId p) {
+    const EnvelopeOptions& layers = requested.layers[p];
+    return !carries_layers(layers) || (!requested.by_location_on(base.wall.patches[p]) && layers.layers == options.layers &&
+                                       layers.first_height == options.first_height && layers.max_growth == options.max_growth &&
+                                       is_same(layers.max_thickness, options.max_thickness) && is_same(layers.total_height, options.total_height));
   };
+  Column<PatchId, std::uint8_t> is_other(base.wall.patches.size(), 0);
+  for (const PatchId p : base.wall.patches.ids()) is_other[p] = is_as_all(p) ? 0 : 1;
   LayerDemand demand;
-  if (std::all_of(base.wall.triangle_patch.begin(), base.wall.triangle_patch.end(), [&](PatchId patch) { return is_as_all(requested[patch]); })) return demand;
-  demand.layers = numbers_of_layers(base, requested, options.layers, context);
-  Blender blender(base, options, requested, by_location, demand, context);
+  if (std::ranges::none_of(base.wall.triangle_patch, [&](PatchId p) { return is_other[p] != 0; })) return demand;
+  demand.layers = numbers_of_layers(base, requested.layers, options.layers, context);
+  Blender blender(base, options, requested, demand, context);
   blender.blend();
   blender.log();
   for_each_column([&](auto& column) { take_least_of_groups(base.groups, column); }, demand);
   return demand;
 }
 
-void warn_of_unused_blends(const LayerBase& base, const EnvelopeOptions& options, std::span<const PatchRule> rules, const FirstHeights* by_location,
+void warn_of_unused_blends(const LayerBase& base, const EnvelopeOptions& options, std::span<const Rule> rules, const FirstHeights* by_location,
                            const RunContext& context) {
-  if (std::ranges::none_of(rules, [](const PatchRule& rule) { return !is_automatic(rule.blend); })) return;
+  if (std::ranges::none_of(rules, [](const Rule& rule) { return is_set(rule, "blend"); })) return;
   const Column<PatchId, Patch>& patches = base.wall.patches;
-  const Column<PatchId, PatchLayers> requested = layers_of_part(patches, options, rules);
-  const auto group_of = [&](PatchId p) {
-    const PatchLayers& layers = requested[p];
-    return Group{layers.first_height,
-                 layers.max_growth,
-                 thickness_limit(layers.max_thickness, layers.total_height, base.body_length),
-                 layers.has_own_first_height ? nullptr : by_location,
-                 layers.blend,
-                 layers.total_height};
-  };
+  const PatchRequests requested = requests_of_base(base, options, rules, by_location);
+  Column<PatchId, Group> groups;
+  for (const PatchId p : patches.ids()) groups.push_back(requested.group(base, p));
   // Finds patches that are adjacent to a patch with other layers.
   Column<PatchId, std::uint8_t> differs(patches.size(), 0), is_there(patches.size(), 0);
   for (const VertexId v : base.wall.points.ids()) {
     std::set<PatchId> here;
     for (const HalfedgeId h : base.topology.outgoing(v))
-      if (const PatchId p = base.wall.triangle_patch[triangle_of(h)]; requested[p].carries_layers()) here.insert(p);
+      if (const PatchId p = base.wall.triangle_patch[triangle_of(h)]; carries_layers(requested.layers[p])) here.insert(p);
     for (const PatchId p : here) {
       is_there[p] = 1;
-      if (std::ranges::any_of(here, [&](PatchId other) { return other != p && !group_of(p).requests_as(group_of(other)); })) differs[p] = 1;
+      if (std::ranges::any_of(here, [&](PatchId other) { return other != p && !groups[p].requests_as(groups[other]); })) differs[p] = 1;
     }
   }
-  for (const PatchRule& rule : rules) {
-    if (is_automatic(rule.blend)) continue;
+  for (const Rule& rule : rules) {
+    const double blend = value_or(rule, "blend", k_automatic);
+    if (is_automatic(blend)) continue;
     std::string names;
     bool is_used = false;
     for (const PatchId p : patches.ids()) {
-      if (is_there[p] == 0 || requested[p].blend != rule.blend || !matches_glob(patches[p].name, rule.names)) continue;
+      if (is_there[p] == 0 || groups[p].blend != blend || !matches_glob(patches[p].name, rule.names)) continue;
       is_used = is_used || differs[p] != 0;
       names += (names.empty() ? "\"" : ", \"") + patches[p].name + "\"";
     }
     if (is_used || names.empty()) continue;  // a rule that matches no patch with layers is already an error (ignored_requests.h)
-    context.warn("blend = " + in_metres(rule.blend, k_length_digits) + " of patches[\"" + rule.names + "\"] has no effect: no wall that meets " + names +
+    context.warn("blend = " + in_metres(blend, k_length_digits) + " of patches[\"" + rule.names + "\"] has no effect: no wall that meets " + names +
                  " has layers with another first height, growth, height or thickness. Leave blend out, or give the neighbouring walls other layers");
   }
 }
 
-Column<PatchId, std::uint8_t> patches_with_open_ridges(const Column<PatchId, Patch>& patches, bool of_all, std::span<const PatchRule> rules) {
-  Column<PatchId, std::uint8_t> result(patches.size(), of_all ? 1 : 0);
-  for (const PatchRule& rule : rules)
-    for (const PatchId patch : patches.ids())
-      if (rule.open_ridges != PatchRule{}.open_ridges && matches_glob(patches[patch].name, rule.names)) result[patch] = rule.open_ridges == "always" ? 1 : 0;
+Column<PatchId, std::uint8_t> patches_with_open_ridges(const Column<PatchId, Patch>& patches, const RidgeOptions& options, std::span<const Rule> rules) {
+  Column<PatchId, std::uint8_t> result;
+  for (const Patch& patch : patches) result.push_back(resolve(options, rules, patch.name).is_on() ? 1 : 0);
   return result;
 }
 
-Column<VertexId, Truncation> truncation_by_patches(const TriMesh& wall, Truncation of_all, std::span<const PatchRule> rules) {
-  Column<PatchId, Truncation> of_patch(wall.patches.size(), of_all);
-  for (const PatchRule& rule : rules)
-    for (const PatchId patch : wall.patches.ids())
-      if (rule.truncate != PatchRule{}.truncate && matches_glob(wall.patches[patch].name, rule.names)) of_patch[patch] = truncation_of(rule.truncate);
+Column<VertexId, Truncation> truncation_by_patches(const TriMesh& wall, const PrismOptions& options, std::span<const Rule> rules) {
+  const Truncation of_all = truncation_of(options.truncate);
+  Column<PatchId, Truncation> of_patch;
+  for (const Patch& patch : wall.patches) of_patch.push_back(truncation_of(resolve(options, rules, patch.name).truncate));
   if (std::ranges::all_of(wall.triangle_patch, [&](PatchId patch) { return of_patch[patch] == of_all; })) return {};
   Column<VertexId, Truncation> result(wall.n_vertices(), Truncation::always);
   for (const TriangleId t : wall.triangles.ids())

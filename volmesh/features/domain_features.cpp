@@ -198,8 +198,8 @@ class RidgeFans final : public DomainFeature {
   void extend(const DomainTask& task, const FluidBoundary& /*boundary*/, Domain& domain) override {
     const MeshCase& options = task.options;
     if (domain.wall_discs.empty())
-      open_ridges(options.ridges, patches_with_open_ridges(domain.wall.patches, options.ridges.is_on(), options.patches), least_first_height(options),
-                  task.closed, domain, task.context);
+      open_ridges(options.ridges, patches_with_open_ridges(domain.wall.patches, options.ridges, options.patches), least_first_height(options), task.closed,
+                  domain, task.context);
     else task.context.warn("ridges stay closed: an actuator disc ends on the wall");
   }
 
@@ -233,9 +233,9 @@ void require_no_others(const MeshCase& options) {
 
 /// Checks the rules for exactly these patches. A rule for "*" is ignored, because it is meant for other patches.
 void require_no_layers_on_periodic_sides(const MeshCase& options) {
-  for (const PatchRule& rule : options.patches)
+  for (const Rule& rule : options.patches)
     for (const PeriodicNames& pair : options.periodic)
-      if ((rule.names == pair.first || rule.names == pair.second) && (rule.layers > 0 || rule.kind == "wall"))
+      if ((rule.names == pair.first || rule.names == pair.second) && (value_or(rule, "layers", 0) > 0 || value_or(rule, "kind", std::string()) == "wall"))
         throw_bad_argument("making \"" + pair.first + "\" and \"" + pair.second + "\" periodic",
                            "patches requests kind wall or layers on \"" + rule.names + "\"", {},
                            "periodic sides carry no layers: leave out the rule or the periodic pair");

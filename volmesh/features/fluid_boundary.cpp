@@ -17,8 +17,8 @@ namespace {
 void continue_beyond_open_borders(const TriMesh& boundary, const MeshCase& options, const RunContext& context, Column<PatchId, std::uint8_t>& has_layer) {
   for (const PatchId p : flow_patches_beyond_open_borders(boundary, has_layer, context)) {
     const Patch& patch = boundary.patches[p];
-    const PatchLayers requested = request_of({patch.name, PatchKind::wall}, options.envelope, options.patches);
-    if (!requested.carries_layers() || (is_automatic(requested.first_height) && !options.first_heights)) continue;
+    const EnvelopeOptions requested = request_of({patch.name, PatchKind::wall}, options.envelope, options.patches);
+    if (!carries_layers(requested) || (is_automatic(requested.first_height) && !options.first_heights)) continue;
     has_layer[p] = 1;
     context.info("the layer of the walls continues over the " + std::string(to_string(patch.kind)) + " patch \"" + patch.name +
                  "\", which begins at an outer edge of a wall, where no layer can end; patches = { [\"" + patch.name +
@@ -29,13 +29,13 @@ void continue_beyond_open_borders(const TriMesh& boundary, const MeshCase& optio
 }  // namespace
 
 Column<PatchId, std::uint8_t> patches_with_layers(const TriMesh& boundary, const MeshCase& options, const RunContext& context) {
-  const Column<PatchId, PatchLayers> layers = layers_of_patches(boundary.patches, options.envelope, options.patches);
+  const Column<PatchId, EnvelopeOptions> layers = layers_of_patches(boundary.patches, options.envelope, options.patches);
   Column<PatchId, std::uint8_t> has_layer(boundary.patches.size(), 0);
   // Files of triangles contain no patch kinds, so all their patches are walls, except periodic sides.
   const auto is_periodic = [&](const std::string& name) {
     return std::ranges::any_of(options.periodic, [&](const PeriodicNames& pair) { return pair.first == name || pair.second == name; });
   };
-  for (const PatchId p : layers.ids()) has_layer[p] = layers[p].carries_layers() && !is_periodic(boundary.patches[p].name) ? 1 : 0;
+  for (const PatchId p : layers.ids()) has_layer[p] = carries_layers(layers[p]) && !is_periodic(boundary.patches[p].name) ? 1 : 0;
   continue_beyond_open_borders(boundary, options, context, has_layer);
   return has_layer;
 }
@@ -51,13 +51,14 @@ FluidBoundary completed_boundary(const TriMesh& given, const MeshCase& options, 
 
 double least_first_height(const MeshCase& options) {
   double least = options.envelope.first_height;
-  for (const PatchRule& rule : options.patches)
-    if (!is_automatic(rule.first_height)) least = is_automatic(least) ? rule.first_height : std::min(least, rule.first_height);
+  for (const Rule& rule : options.patches)
+    if (const double own = value_or(rule, "first_height", k_automatic); !is_automatic(own)) least = is_automatic(least) ? own : std::min(least, own);
   return least;
 }
 
 bool opens_ridges(const MeshCase& options) {
-  return options.ridges.is_on() || std::ranges::any_of(options.patches, [](const PatchRule& rule) { return rule.open_ridges == "always"; });
+  return options.ridges.is_on() ||
+         std::ranges::any_of(options.patches, [](const Rule& rule) { return value_or(rule, "open_ridges", std::string()) == "always"; });
 }
 
 std::function<double(const Point&)> end_sizes(Borrowed<const MeshCase> borrowed) {

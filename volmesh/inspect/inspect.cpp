@@ -33,7 +33,7 @@ void leave_out(const Survey& survey, const std::string& what, const std::string&
 
 bool has_first_height(const MeshCase& options) {
   return !is_automatic(options.envelope.first_height) || options.first_heights ||
-         std::ranges::any_of(options.patches, [](const PatchRule& rule) { return !is_automatic(rule.first_height); });
+         std::ranges::any_of(options.patches, [](const Rule& rule) { return is_set(rule, "first_height"); });
 }
 
 std::vector<TriangleId> triangles_at_holes(const Survey& survey) {

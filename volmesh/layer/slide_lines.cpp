@@ -447,7 +447,7 @@ void LineSlider::put(Line line, const std::vector<Point>& nodes) {
 /// Returns the largest allowed ratio of consecutive cells of the growth line.
 double LineSlider::allowed_growth(Line line) const {
   const LayerRequest& request = mesh_.request;
-  const double requested = request.line_max_growth.empty() ? request.max_growth : request.line_max_growth[line];
+  const double requested = request.max_growth_of(line);
   return std::max(requested, 1.0) * (1.0 + k_growth_rounding);
 }
 

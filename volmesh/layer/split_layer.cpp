@@ -138,7 +138,7 @@ SplitLayer split_layer(const LayerBase& base, const Envelope& envelope, const Tr
   layer.outer = std::move(split_outer);
   auto split_base = std::make_unique<LayerBase>(*layer.wall, context);
   split_base->demand = demand_of(*split_base, options.envelope, options.patches, options.first_heights.get(), context);
-  split_base->truncation = truncation_by_patches(split_base->wall, truncation_of(options.prisms.truncate), options.patches);
+  split_base->truncation = truncation_by_patches(split_base->wall, options.prisms, options.patches);
   layer.base = std::move(split_base);
 
   layer.extrusion = extrude_prisms(*layer.base, options.envelope, options.prisms, layer.envelope, context);

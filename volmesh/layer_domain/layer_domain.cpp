@@ -58,8 +58,8 @@ void warn_of_cavities(const Domain& domain, const RunContext& context) {
 /// Returns the surface with the kinds of the rules for its own patches. The other rules are for added patches.
 TriMesh with_own_kinds(const TriMesh& surface, const MeshCase& options) {
   TriMesh given = surface;
-  std::vector<PatchRule> of_given;
-  std::ranges::copy_if(options.patches, std::back_inserter(of_given), [&](const PatchRule& rule) {
+  std::vector<Rule> of_given;
+  std::ranges::copy_if(options.patches, std::back_inserter(of_given), [&](const Rule& rule) {
     return std::ranges::any_of(given.patches, [&](const Patch& patch) { return matches_glob(patch.name, rule.names); });
   });
   apply_patch_kinds(given, of_given);
@@ -106,7 +106,7 @@ LayerBase base_of(const Domain& domain, const MeshCase& options, const RunContex
   for (const DoubledSheets::BaseVertex& base_vertex : domain.sheets.base_vertices)
     if (!base_vertex.is_on_base) base.level.push_back(base_vertex.sides);
   base.demand = demand_of(base, options.envelope, options.patches, options.first_heights.get(), context);
-  base.truncation = truncation_by_patches(domain.wall, truncation_of(options.prisms.truncate), options.patches);
+  base.truncation = truncation_by_patches(domain.wall, options.prisms, options.patches);
   grow_sheet_heights(domain.sheets, options.envelope, base);
   return base;
 }

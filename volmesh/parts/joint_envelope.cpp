@@ -63,7 +63,7 @@ PartEnvelopeTask task_of(const LayerDomain& layer_domain, const WholePart& whole
     if (!number[patch].is_valid()) number[patch] = task.wall.patches.push_back(wall.patches[patch]);
     task.wall.triangle_patch.push_back(number[patch]);
   }
-  for (const PatchRule& rule : layer_domain.options.patches)
+  for (const Rule& rule : layer_domain.options.patches)
     if (std::ranges::any_of(task.wall.patches, [&](const Patch& patch) { return matches_glob(patch.name, rule.names); })) task.rules.push_back(rule);
   return task;
 }

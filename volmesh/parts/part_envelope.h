@@ -7,7 +7,7 @@
 #include "geom/base/run_context.h"
 #include "geom/mesh/tri_mesh.h"
 #include "volmesh/case/envelope_options.h"
-#include "volmesh/case/patch_rule.h"
+#include "volmesh/case/layer_rules.h"
 #include "volmesh/envelope/envelope.h"
 #include "volmesh/parts/warm_start.h"
 
@@ -17,7 +17,7 @@ namespace sterna::volmesh {
 struct PartEnvelopeTask {
   TriMesh wall;  ///< wall in the part's own frame; its patches have kinds, and all of them carry layers
   EnvelopeOptions options;
-  std::vector<PatchRule> rules;       ///< rules whose name matches a patch of the part
+  std::vector<Rule> rules;            ///< rules whose name matches a patch of the part
   double smooth_angle = k_automatic;  ///< rad: MeshCase::smooth_angle of the part
 };
 

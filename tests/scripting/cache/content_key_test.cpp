@@ -7,9 +7,11 @@
 
 #include "scripting/lua/component_value.h"
 #include "scripting/values/models.h"
+#include "scripting/values/patch_rules.h"
 #include "scripting/values/stored_stages.h"
 #include "scripting/values/verbs.h"
 #include "tests/support/test_shapes.h"
+#include "volmesh/case/layer_rules.h"
 
 namespace sterna::scripting {
 namespace {
@@ -20,6 +22,8 @@ void change(const Option& option) {
   if (const auto* flag = std::get_if<bool>(&value)) option.store(!*flag);
   else if (const auto* whole = std::get_if<std::int64_t>(&value)) option.store(*whole + 1);
   else if (const auto* number = std::get_if<double>(&value)) option.store(is_automatic(*number) ? 0.125 : std::nextafter(*number, 1e300));
+  else if (option.name == "farfield_sides") option.store("x_min=slip");
+  else if (option.name == "periodic") option.store("left,right");
   else option.store(std::get<std::string>(value) + "x");
 }
 
@@ -47,11 +51,11 @@ TEST(ContentKeys, NonNumericVolumeMeshInputsEnterKey) {
     EXPECT_TRUE(volume.insert(volume_options_key(options)).second) << what;
     EXPECT_EQ(envelope.insert(envelope_options_key(options)).second, is_of_envelope) << what;
   };
-  volmesh::PatchRule rule_defaults;
-  for (std::size_t i = 0; i < sterna::options_of(rule_defaults).size(); ++i) {
+  Rule rule_defaults;
+  for (std::size_t i = 0; i < volmesh::layer_rule_options(rule_defaults).size(); ++i) {
     volmesh::MeshCase options;
     options.patches.resize(1);
-    const Option option = sterna::options_of(options.patches.front())[i];
+    const Option option = volmesh::layer_rule_options(options.patches.front())[i];
     change(option);
     expect(options, true, "rule of a patch");
   }
@@ -97,18 +101,11 @@ TEST(ContentKeys, SurfaceMeshOptionsEnterTheirKey) {
     change(option);
     EXPECT_TRUE(seen.insert(key_of(recipe)).second) << option.name;
   }
-  double surfmesh::PatchSurfaceOptions::*const members[] = {&surfmesh::PatchSurfaceOptions::max_edge,
-                                                            &surfmesh::PatchSurfaceOptions::min_edge,
-                                                            &surfmesh::PatchSurfaceOptions::curvature_angle,
-                                                            &surfmesh::PatchSurfaceOptions::chord_error,
-                                                            &surfmesh::PatchSurfaceOptions::leading_edge_chordwise,
-                                                            &surfmesh::PatchSurfaceOptions::trailing_edge_cells,
-                                                            &surfmesh::PatchSurfaceOptions::trailing_edge_factor};
-  for (const auto member : members) {
+  Rule none;
+  for (const Option& option : size_rule_options(none)) {
     SurfaceRecipe recipe;
-    recipe.patches = {{.names = "wing*"}};
-    recipe.patches.front().*member = 0.5;
-    EXPECT_TRUE(seen.insert(key_of(recipe)).second);
+    recipe.patches = {{.names = "wing*", .options = {{std::string(option.name), 0.5}}}};
+    EXPECT_TRUE(seen.insert(key_of(recipe)).second) << option.name;
   }
   SurfaceRecipe recipe;
   recipe.sources = {{.kind = volmesh::SourceKind::point, .size = 0.1}};

@@ -3,11 +3,13 @@
 #include <gtest/gtest.h>
 
 #include <cmath>
+#include <cstring>
 #include <set>
 
 #include "geom/base/error.h"
 #include "scripting/cache/content_key.h"
 #include "scripting/values/disc_verbs.h"
+#include "scripting/values/patch_rules.h"
 #include "scripting/values/stored_types.h"
 #include "scripting/values/typed_number.h"
 #include "scripting/values/wake_verbs.h"
@@ -88,6 +90,40 @@ TEST(DescribedValues, StringsOfTheCommandLineHaveVectorsAndUnits) {
   EXPECT_THAT(problem([] { wake_sheet_of_text("direction=1,0,0 alpha=2"); }), HasSubstr("exclude each other"));
   EXPECT_THAT(problem([] { wake_sheet_of_text("direction=0,0,0"); }), HasSubstr("zero length"));
   EXPECT_THAT(problem([] { wake_sheet_of_text("lenght=2"); }), HasSubstr("lenght"));
+}
+
+/// Bytes in memory.
+struct RuleBytes final : ByteSink, ByteSource {
+  std::string bytes;
+  std::size_t at = 0;
+  void put(const void* from, std::size_t n) override { bytes.append(static_cast<const char*>(from), n); }
+  void take(void* to, std::size_t n) override {
+    if (n > n_left()) refuse();
+    std::memcpy(to, bytes.data() + at, n);
+    at += n;
+  }
+  std::uint64_t n_left() const override { return bytes.size() - at; }
+  [[noreturn]] void refuse() const override { throw Error({.code = ErrorCode::file_malformed, .attempted = "reading rules", .problem = "too short"}); }
+};
+
+TEST(DescribedValues, RulesReadBackFromBytesAndJson) {
+  const std::vector<Rule> layers = {{.names = "wing*", .options = {{"layers", 12}, {"first_height", 1e-5}, {"open_ridges", "always"}, {"kind", "wall"}}},
+                                    {.names = "floor"}};
+  const std::vector<Rule> sizes = {{.names = "wing*", .options = {{"max_edge", 0.1}, {"curvature_angle", 0.2}}}};
+  RuleBytes stored;
+  write_value(stored, layers);
+  std::vector<Rule> read;
+  read_value(stored, read);
+  ASSERT_EQ(read.size(), layers.size());
+  for (std::size_t i = 0; i < layers.size(); ++i) {
+    EXPECT_EQ(read[i].names, layers[i].names);
+    EXPECT_EQ(read[i].options, layers[i].options);
+  }
+  EXPECT_EQ(rules_json(layers), R"([{"names":"wing*","kind":"wall","layers":12,"first_height":1e-05,"open_ridges":"always"},{"names":"floor"}])");
+  EXPECT_EQ(layer_rules_of_json(rules_json(layers))[0].options, layers[0].options);
+  EXPECT_EQ(size_rules_of_json(rules_json(sizes))[0].options, sizes[0].options);
+  EXPECT_THROW(layer_rules_of_json(rules_json(sizes)), Error);
+  EXPECT_THROW(layer_rules_of_json("{}"), Error);
 }
 
 }  // namespace

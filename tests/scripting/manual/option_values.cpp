@@ -31,6 +31,8 @@ std::string number_text(double value) {
 }  // namespace
 
 OptionValue other_value(const Option& option) {
+  if (option.name == "farfield_sides") return "x_min=inflow";
+  if (option.name == "periodic" && option.kind == OptionKind::string) return "left,right";
   switch (option.kind) {
     case OptionKind::boolean: return !std::get<bool>(option.default_value);
     case OptionKind::integer:
@@ -54,6 +56,7 @@ std::string text_of(const OptionValue& value) {
 }
 
 std::string other_value(const OptionDoc& option) {
+  if (option.name == "farfield_sides") return "\"x_min=inflow\"";
   if (option.value == "true" || option.value == "false") return option.value == "true" ? "false" : "true";
   if (option.range.starts_with("one of ")) {
     const std::string words = std::regex_replace(option.range.substr(7), std::regex(","), " "),

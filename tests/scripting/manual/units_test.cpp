@@ -177,25 +177,24 @@ std::size_t expect_same(const OptionTable& table) {
 }
 
 TEST_F(Units, RulesOfPatchesAndConditionsOfBoundaries) {
-  volmesh::PatchRule layers;
-  surfmesh::PatchSurfaceOptions sizes;
+  Rule rule;
   CaseBoundary boundary;
   volmesh::FlowConditions flow;
   CaseOptions common;
   std::size_t n = 0;
   for (const OptionTable& table :
-       {patch_rule_options(layers), patch_rule_options(sizes), sterna::options_of(boundary), flow_options(flow), sterna::options_of(common)})
+       {volmesh::layer_rule_options(rule), size_rule_options(rule), sterna::options_of(boundary), flow_options(flow), sterna::options_of(common)})
     n += expect_same(table);
   EXPECT_GT(n, 15u);
-  std::vector<surfmesh::PatchSurfaceOptions> of_surface;
+  std::vector<Rule> of_surface;
   const auto rules = layer_rules_of({{"a", {{"curvature_angle", "8"}, {"max_edge", "0.5"}, {"first_height", "0.001"}}},
                                      {"b", {{"curvature_angle", "8deg"}, {"max_edge", "500mm"}, {"first_height", "1mm"}}}},
                                     &of_surface);
   ASSERT_EQ(of_surface.size(), 2u);
-  EXPECT_EQ(of_surface[0].curvature_angle, 8.0 * k_degree);
-  EXPECT_EQ(of_surface[0].curvature_angle, of_surface[1].curvature_angle);
-  EXPECT_DOUBLE_EQ(of_surface[0].max_edge, of_surface[1].max_edge);
-  EXPECT_DOUBLE_EQ(rules[0].first_height, rules[1].first_height);
+  EXPECT_EQ(value_or(of_surface[0], "curvature_angle", 0.0), 8.0 * k_degree);
+  EXPECT_EQ(of_surface[0].options.at("curvature_angle"), of_surface[1].options.at("curvature_angle"));
+  EXPECT_DOUBLE_EQ(value_or(of_surface[0], "max_edge", 0.0), value_or(of_surface[1], "max_edge", 1.0));
+  EXPECT_DOUBLE_EQ(value_or(rules[0], "first_height", 0.0), value_or(rules[1], "first_height", 1.0));
 }
 
 TEST_F(Units, UnitsInStringsOfSourcesDiscsAndViews) {

@@ -34,7 +34,7 @@ using test::k_context;
 
 SurfaceMeshOptions edges_and_crossings(double size, const std::string& crossings = "error") {
   SurfaceMeshOptions options;
-  options.max_edge = size;
+  options.sizes.max_edge = size;
   options.crossings = crossings;
   return options;
 }
@@ -105,7 +105,7 @@ TEST(BadModels, TouchingSolidsRequireUnionAtOnce) {
 TEST(BadModels, NearbySolidsAreSeparatedByFinerTriangles) {
   // A rod in a hole that is 4 mm wider: facets of 0.35 m would cross.
   SurfaceMeshOptions options = edges_and_crossings(0.35);
-  options.curvature_angle = 0.7;
+  options.sizes.curvature_angle = 0.7;
   const Model rod = make_cylinder("rod", {-1, 0, 0}, {1, 0, 0}, 0.5), ring = make_cylinder("pipe", {-0.9, 0, 0}, {0.9, 0, 0}, 0.504);
   // Only the lateral surfaces of both: the rod would cross the ends of the pipe.
   Model model = both(rod, ring);
@@ -201,7 +201,7 @@ TEST(BadModels, FacesAroundAPeriodNeedNoSeam) {
     SCOPED_TRACE(n);
     const Model model = tube_without_seam(n);
     SurfaceMeshOptions options = edges_and_crossings(0.2);
-    options.curvature_angle = 0.3;
+    options.sizes.curvature_angle = 0.3;
     const SurfaceMesh mesh = mesh_model(model, options, {}, k_context);
     expect_joined(model, mesh);
     EXPECT_EQ(mesh.report.n_free_edges, 0);
@@ -238,7 +238,7 @@ TEST(BadModels, SphereCapNeedsNeitherSeamNorPole) {
                            .name = v > 0.0 ? "north" : "south"});
   }
   SurfaceMeshOptions options = edges_and_crossings(0.15);
-  options.curvature_angle = 0.3;
+  options.sizes.curvature_angle = 0.3;
   const SurfaceMesh mesh = mesh_model(model, options, {}, k_context);
   expect_joined(model, mesh);
   EXPECT_GT(mesh.report.share_20_130, 0.99) << to_text(mesh.report);
@@ -289,13 +289,13 @@ TEST(BadModels, EdgesOffTheirFacesAreNamed) {
 TEST(BadModels, NormalsAreMeasuredAgainstTheCurvatureAngle) {
   const Model model = make_cylinder("c", {0, 0, 0}, {3, 0, 0}, 1.0);
   SurfaceMeshOptions options = edges_and_crossings(0.5);
-  options.curvature_angle = 0.3;
+  options.sizes.curvature_angle = 0.3;
   const SurfaceMesh fine = mesh_model(model, options, {}, k_context);
   EXPECT_EQ(fine.report.share_normals, 1.0);
   EXPECT_FALSE(fine.report.worst_normal_face.is_valid());
   // No edge may be shorter than 0.5 m, which spans 0.5 rad.
-  options.curvature_angle = 0.05;
-  options.min_edge = 0.5;
+  options.sizes.curvature_angle = 0.05;
+  options.sizes.min_edge = 0.5;
   const SurfaceMesh coarse = mesh_model(model, options, {}, k_context);
   EXPECT_LT(coarse.report.share_normals, 0.5);
   ASSERT_TRUE(coarse.report.worst_normal_face.is_valid());
@@ -309,7 +309,7 @@ TEST(BadModels, HolesAtBordersAndLinesAsFaces) {
     SCOPED_TRACE(file);
     const Model model = io::read_cad(test::shared_data() / "cad" / file, {}, k_context).model;
     SurfaceMeshOptions options = edges_and_crossings(n_absorbed > 0 ? 0.3 : 1.0, "ignore");
-    options.curvature_angle = 0.4;
+    options.sizes.curvature_angle = 0.4;
     const SurfaceMesh mesh = mesh_model(model, options, {}, k_context);
     expect_joined(model, mesh);
     EXPECT_EQ(mesh.report.absorbed.size(), n_absorbed);
@@ -363,7 +363,7 @@ TEST(BadModels, LoopsOfOpenModelsAreTheFreeEdges) {
     SCOPED_TRACE(c.file);
     const Model model = io::read_cad(test::shared_data() / "cad" / c.file, {}, k_context).model;
     SurfaceMeshOptions options = edges_and_crossings(c.max_edge, "ignore");
-    options.curvature_angle = 0.5;
+    options.sizes.curvature_angle = 0.5;
     const SurfaceMesh mesh = mesh_model(model, options, {}, k_context);
     ASSERT_TRUE(mesh.report.absorbed.empty());
     expect_joined(model, mesh);
@@ -375,7 +375,7 @@ TEST(BadModels, FoldedSurfaceIsNamedWithLocation) {
   STERNA_NEEDS_SHARED_DATA();
   // The lip of the nacelle: du and dv are parallel at y = -0.511, and the normal reverses.
   SurfaceMeshOptions options = edges_and_crossings(0.1);
-  options.curvature_angle = 0.4;
+  options.sizes.curvature_angle = 0.4;
   const ErrorInfo info = failure_of(io::read_cad(test::shared_data() / "cad" / "tigl_nacelle_nacelle.stp", {}, k_context).model, options);
   EXPECT_EQ(info.code, ErrorCode::self_intersection);
   EXPECT_NEAR(std::abs(info.locations.front().position.y), 0.511, 0.005);

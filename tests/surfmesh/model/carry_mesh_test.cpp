@@ -48,9 +48,9 @@ Model bent(const Model& model, double by) {
 
 StructuredMesh mesh_of(const Model& model, double max_edge = 0.2) {
   SurfaceMeshOptions options;
-  options.max_edge = max_edge;
-  options.leading_edge_chordwise = 0.02;  // bands: stretched triangles are carried too
-  options.leading_edge_stretch = 5.0;
+  options.sizes.max_edge = max_edge;
+  options.sizes.leading_edge_chordwise = 0.02;  // bands: stretched triangles are carried too
+  options.sizes.leading_edge_stretch = 5.0;
   return {structure_of(model), mesh_model(model, options, {}, k_context)};
 }
 

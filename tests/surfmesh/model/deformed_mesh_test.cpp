@@ -49,7 +49,7 @@ TEST(DeformedMesh, MeshedWingBendsByDisplacementFile) {
   const RunContext context({.threads = 2});
   const Model wing = io::read_cad(test::shared_data() / "cad" / "tigl_simplewing_simplewing.brep", {}, context).model;
   SurfaceMeshOptions options;
-  options.max_edge = 0.1;
+  options.sizes.max_edge = 0.1;
   const SurfaceMesh surface = mesh_model(wing, options, {}, context);
   const auto map = std::make_shared<RadialMap>(read_displacements(displacements(0.25)));
   const Model bent = deformed(wing, map, context);

@@ -8,8 +8,8 @@ namespace sterna::test {
 /// Returns options for edges of at most `size` that turn by at most `angle`, radians.
 inline surfmesh::SurfaceMeshOptions edges_of(double size, double angle = 0.5) {
   surfmesh::SurfaceMeshOptions options;
-  options.max_edge = size;
-  options.curvature_angle = angle;
+  options.sizes.max_edge = size;
+  options.sizes.curvature_angle = angle;
   return options;
 }
 

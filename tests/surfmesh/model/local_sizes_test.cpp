@@ -22,10 +22,10 @@ using test::k_context;
 
 SurfaceMeshOptions plain_edges(double size) {
   SurfaceMeshOptions options;
-  options.max_edge = size;
-  options.min_edge = 1e-3 * size;
-  options.curvature_angle = 0.5;
-  options.narrow = 100.0;
+  options.sizes.max_edge = size;
+  options.sizes.min_edge = 1e-3 * size;
+  options.sizes.curvature_angle = 0.5;
+  options.sizes.narrow = 100.0;
   options.leading_edge_factor = options.trailing_edge_factor = options.intersection_factor = 1.0;
   options.tip_strips = false;
   return options;
@@ -64,7 +64,7 @@ TEST(LocalSizes, SourcesOfTheUserAreMetAndGrow) {
   EXPECT_NEAR(mean_edge(mesh, at(1.9, 2.1)), 0.05 + 0.2 * 1.5, 0.07);
   EXPECT_GT(mean_edge(mesh, [](const Point& p) { return p.z < 0.01 && distance(p, {0, 0, 0}) < 2.0; }), 0.75);
   // The next finer mesh has half the lengths at this location, too.
-  options.refinement = 2.0;
+  options.sizes.refinement = 2.0;
   EXPECT_NEAR(mean_edge(meshed(model, options, requested), at(0.0, 0.4)), 0.025, 0.005);
 }
 
@@ -87,7 +87,7 @@ TEST(LocalSizes, GapsHaveTheirCells) {
   SurfaceMeshOptions options = plain_edges(1.0);
   const auto in_gap = [](const Point& p) { return p.z > 0.99 && p.z < 1.31 && p.x > 1 && p.x < 9 && p.y > 1 && p.y < 9; };
   EXPECT_GT(mean_edge(meshed(model, options), in_gap), 0.7);
-  options.gap_cells = 2.0;
+  options.sizes.gap_cells = 2.0;
   const SurfaceMesh mesh = meshed(model, options);
   EXPECT_NEAR(mean_edge(mesh, in_gap), 0.15, 0.03);
   // Near the outer edges sizes grow again, and inside the plates no gap is detected.
@@ -99,9 +99,9 @@ TEST(LocalSizes, ThinPartsHaveShortEdges) {
   SurfaceMeshOptions options = plain_edges(1.0);
   const auto inner = [](const Point& p) { return p.x > 1 && p.x < 9 && p.y > 1 && p.y < 9; };
   EXPECT_GT(mean_edge(meshed(model, options), inner), 0.6);
-  options.thickness_factor = 1.5;
+  options.sizes.thickness_factor = 1.5;
   EXPECT_NEAR(mean_edge(meshed(model, options), inner), 0.3, 0.06);
-  options.min_edge = 0.5;  // a lower limit for the sizes from thin parts
+  options.sizes.min_edge = 0.5;  // a lower limit for the sizes from thin parts
   EXPECT_GT(mean_edge(meshed(model, options), inner), 0.4);
 }
 
@@ -124,7 +124,7 @@ TEST(LocalSizes, WingsAreFinerAtTheirEdgesAndTips) {
     SCOPED_TRACE(is_blunt);
     const Model model = lens_section_wing(is_blunt);
     SurfaceMeshOptions options = plain_edges(0.2);
-    options.min_edge = 0.15;
+    options.sizes.min_edge = 0.15;
     const auto strip = [](double from, double to) {
       return [=](const Point& p) { return p.x > from && p.x < to && p.y > 3 && p.y < 7 && std::abs(p.z) > 0.02; };
     };
@@ -142,7 +142,7 @@ TEST(LocalSizes, WingsAreFinerAtTheirEdgesAndTips) {
     EXPECT_LT(mean_edge(leading, strip(0.3, 0.4)), 0.75 * behind_nose);
     EXPECT_GT(mean_edge(leading, strip(1.8, 1.9)), 0.8 * plain);
     // Rules for patches override the general options.
-    const std::vector<PatchSurfaceOptions> rules = {{.names = "W*", .leading_edge_factor = 1.0}};
+    const std::vector<Rule> rules = {{.names = "W*", .options = {{"leading_edge_factor", 1.0}}}};
     EXPECT_NEAR(mean_edge(mesh_model(model, options, rules, k_context), strip(0.3, 0.4)), behind_nose, 0.02 * behind_nose);
     options.leading_edge_factor = 1.0;
     options.tip_strips = true;
@@ -173,9 +173,9 @@ TEST(LocalSizes, SameForAnyThreads) {
   Model model = lens_section_wing(true);
   append(model, make_box("slab", {0, 3, 0.3}, {2, 7, 0.5}));
   SurfaceMeshOptions options;
-  options.max_edge = 0.2;
-  options.gap_cells = 2.0;
-  options.thickness_factor = 2.0;
+  options.sizes.max_edge = 0.2;
+  options.sizes.gap_cells = 2.0;
+  options.sizes.thickness_factor = 2.0;
   SpaceSizes requested;
   requested.regions = [](const Point& p, double slope) { return 0.02 + slope * distance(p, {1, 5, 0.1}); };
   std::vector<Point> first;

@@ -82,7 +82,7 @@ TEST(MeshModel, AreaAndVolumeConvergeWithOrderTwo) {
     std::vector<double> areas, volumes;
     for (const double factor : {1.0, 2.0, 4.0}) {
       SurfaceMeshOptions options = edges_of(c.size);
-      options.refinement = factor;
+      options.sizes.refinement = factor;
       if (factor >= 4.0) options.crossings = "ignore";
       const SurfaceMesh mesh = mesh_model(c.model, options, {}, k_context);
       if (factor < 4.0) expect_sound(c.model, mesh);
@@ -132,7 +132,7 @@ TEST(MeshModel, PatchesHaveSizesOfTheirOwnThatGrow) {
   const Model model = make_test_section({.length = 4.0, .width = 2.0, .height = 2.0});
   SurfaceMeshOptions options = edges_of(0.4);
   const SurfaceMesh coarse = mesh_model(model, options, {}, k_context);
-  const std::vector<PatchSurfaceOptions> rules = {{.names = "in*", .max_edge = 0.05}};
+  const std::vector<Rule> rules = {{.names = "in*", .options = {{"max_edge", 0.05}}}};
   const SurfaceMesh fine = mesh_model(model, options, rules, k_context);
   expect_sound(model, fine);
   EXPECT_GT(fine.mesh.n_triangles(), 4 * coarse.mesh.n_triangles());
@@ -143,7 +143,7 @@ TEST(MeshModel, PatchesHaveSizesOfTheirOwnThatGrow) {
     } else if (face.name == "outflow") {
       EXPECT_LT(face.n_triangles, 150);
     }
-  const std::vector<PatchSurfaceOptions> wrong = {{.names = "wing*", .max_edge = 0.05}};
+  const std::vector<Rule> wrong = {{.names = "wing*", .options = {{"max_edge", 0.05}}}};
   try {
     mesh_model(model, options, wrong, k_context);
     FAIL() << "no error";
@@ -170,7 +170,7 @@ TEST(MeshModel, SameBytesForAnyThreads) {
 
 TEST(MeshModel, FaceWithTooManyTrianglesIsNamed) {
   SurfaceMeshOptions options = edges_of(0.01);
-  options.max_triangles = 1000;
+  options.sizes.max_triangles = 1000;
   try {
     mesh_model(make_box("crate", {0, 0, 0}, {1, 1, 1}), options, {}, k_context);
     FAIL() << "no error";
@@ -235,7 +235,7 @@ TEST(MeshModel, ChordErrorHoldsOnPolesAndSharpEnds) {
                                     std::pair{"blunt body", tube(0.4, 5.0, {CapShape::strip, 0.3})}, std::pair{"wing", make_wing(wing)}})
     for (const double error : {0.01, 0.001}) {
       SurfaceMeshOptions options;
-      options.chord_error = error;
+      options.sizes.chord_error = error;
       const SurfaceMesh mesh = mesh_model(model, options, {}, k_context);
       expect_sound(model, mesh);
       EXPECT_LE(chord_error_of(model, mesh), error) << name << ", " << mesh.mesh.n_triangles() << " triangles";
@@ -253,7 +253,7 @@ TEST(MeshModel, AChordErrorIsMetOnRealModels) {
     const std::filesystem::path path = test::shared_data() / c.file;
     const Model model = path.extension() == ".smx" ? make_components(read_smx(path, k_context).aircraft, k_context) : io::read_cad(path, {}, k_context).model;
     SurfaceMeshOptions options;
-    options.chord_error = c.error;
+    options.sizes.chord_error = c.error;
     options.crossings = "warn";  // parts are left as they are: only distances are tested
     const SurfaceMesh mesh = mesh_model(model, options, {}, k_context);
     const double most = chord_error_of(model, mesh);
@@ -267,7 +267,7 @@ TEST(MeshModel, TheDefaultNacellesLipIsResolved) {
     n.length = 4.0;
     n.diameter = 2.1;
     SurfaceMeshOptions options;
-    options.refinement = refinement;
+    options.sizes.refinement = refinement;
     const SurfaceMesh mesh = mesh_model(make_body(nacelle_body("engine", {}, n), ComponentKind::nacelle), options, {}, k_context);
     EXPECT_LT(mesh.report.max_smooth_angle, 45 * k_degree) << to_text(mesh.report);
   }
@@ -281,9 +281,9 @@ TEST(MeshModel, CoarseMembersKeepRoundTipsSmooth) {
   wing.right_tip = wing.left_tip = {CapShape::strip, 1.0};
   const Model model = make_wing(wing);
   SurfaceMeshOptions options;
-  options.max_edge = 0.045;
+  options.sizes.max_edge = 0.045;
   for (const double refinement : {0.5, 0.7, 1.0}) {
-    options.refinement = refinement;
+    options.sizes.refinement = refinement;
     const SurfaceMesh mesh = mesh_model(model, options, {}, k_context);
     EXPECT_LT(mesh.report.max_smooth_angle, 55 * k_degree) << refinement << ": " << to_text(mesh.report);
   }
@@ -291,7 +291,7 @@ TEST(MeshModel, CoarseMembersKeepRoundTipsSmooth) {
 
 TEST(MeshModel, TooSmallChordErrorIsRefusedAtOnce) {
   SurfaceMeshOptions options;
-  options.chord_error = 1e-9;
+  options.sizes.chord_error = 1e-9;
   try {
     mesh_model(make_ball(3.0), options, {}, k_context);
     FAIL();
@@ -301,8 +301,8 @@ TEST(MeshModel, TooSmallChordErrorIsRefusedAtOnce) {
     EXPECT_THAT(error.what(), testing::AllOf(testing::HasSubstr("chord_error = 1e-09 m requires about 2.4e+10 triangles"), testing::HasSubstr("min_edge")));
   }
   // If min_edge is given, it is the target.
-  options.max_edge = 1.0;
-  options.min_edge = 0.5;
+  options.sizes.max_edge = 1.0;
+  options.sizes.min_edge = 0.5;
   EXPECT_GT(mesh_model(make_ball(3.0), options, {}, k_context).mesh.n_triangles(), 100u);
 }
 

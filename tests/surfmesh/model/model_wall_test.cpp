@@ -131,7 +131,7 @@ TEST(SmoothAngle, NosesOfThinTaperedWingsAreResolved) {
 /// A rod with edges longer than its radius is a prism of few sides over its whole length, so the sharp turn is not local.
 TEST(SmoothAngle, LongPlacesThatTurnSharplyGiveAWarning) {
   SurfaceMeshOptions options = edges_of(0.2, 90.0 * k_degree);
-  options.min_edge = 0.2;
+  options.sizes.min_edge = 0.2;
   EXPECT_NE(turn_warnings(make_cylinder("rod", {0, 0, 0}, {9, 0, 0}, 0.1), options), "");
 }
 

@@ -39,9 +39,9 @@ Model blade(double trailing_edge) { return test::blade(trailing_edge, "2412", 0.
 
 SurfaceMeshOptions alike(double max_edge, const std::string& pairs = "tunnel_left,tunnel_right") {
   SurfaceMeshOptions options = edges_of(max_edge);
-  options.min_edge = 0.1 * max_edge;
-  options.growth = 1.4;
-  options.periodic = pairs;
+  options.sizes.min_edge = 0.1 * max_edge;
+  options.sizes.growth = 1.4;
+  options.periodic = side_pairs(pairs);
   return options;
 }
 
@@ -88,7 +88,7 @@ PeriodicBorders borders_of(const Model& model, const SurfaceMeshOptions& options
   const ModelSizes sizes = sizes_of_faces(model, edges, options, {}, k_context);
   std::vector<AbsorbedPart> absorbed;
   ModelTopology topology = absorb_small_parts(model, edges, sizes, absorbed);
-  return find_periodic_borders(model, edges, side_pairs(options.periodic), topology);
+  return find_periodic_borders(model, edges, options.periodic, topology);
 }
 
 std::size_t n_stops(const PeriodicBorders& borders) {
@@ -128,8 +128,8 @@ TEST(PeriodicBorders, WingsWithSharpBluntNearlySharpTrailingEdges) {
 TEST(PeriodicBorders, BandsAndStripsEndAtThem) {
   const Model model = through_duct({blade(0.01)});
   SurfaceMeshOptions options = alike(0.1);
-  options.leading_edge_chordwise = options.trailing_edge_chordwise = 0.01;
-  options.leading_edge_stretch = options.trailing_edge_stretch = 5.0;
+  options.sizes.leading_edge_chordwise = options.sizes.trailing_edge_chordwise = 0.01;
+  options.sizes.leading_edge_stretch = options.sizes.trailing_edge_stretch = 5.0;
   options.trailing_edge_cells = 3.0;
   const SurfaceMesh mesh = mesh_model(model, options, {}, k_context);
   EXPECT_GT(mesh.report.bands.n_triangles, 100);
@@ -140,7 +140,7 @@ TEST(PeriodicBorders, BandsAndStripsEndAtThem) {
 
 TEST(PeriodicBorders, WhatOneSideAsksForTheOtherGets) {
   const Model model = through_duct({bar()});
-  const std::array<PatchSurfaceOptions, 1> rules = {PatchSurfaceOptions{.names = "tunnel_left", .max_edge = 0.05}};
+  const std::array<Rule, 1> rules = {Rule{.names = "tunnel_left", .options = {{"max_edge", 0.05}}}};
   const SurfaceMesh mesh = mesh_model(model, alike(0.2), rules, k_context);
   expect_closed(mesh.mesh);
   expect_images(mesh.mesh, "tunnel_left", "tunnel_right", {0, 1, 0}, 200);
@@ -221,8 +221,8 @@ TEST(PeriodicBorders, SidesThatAreNoImagesAreRefused) {
 
 TEST(PeriodicBorders, PairsAreReadAndWritten) {
   EXPECT_TRUE(side_pairs("").empty());
-  const std::vector<SidePair> pairs = side_pairs("left, right ;floor,ceiling");
-  EXPECT_EQ(pairs, (std::vector<SidePair>{{"left", "right"}, {"floor", "ceiling"}}));
+  const std::vector<PeriodicNames> pairs = side_pairs("left, right ;floor,ceiling");
+  EXPECT_EQ(pairs, (std::vector<PeriodicNames>{{"left", "right"}, {"floor", "ceiling"}}));
   EXPECT_EQ(side_pairs(side_pairs_text(pairs)), pairs);
   for (const char* wrong : {"left", ",right", "left,", "a,b,c", "a,b;c"}) EXPECT_THROW(side_pairs(wrong), Error) << wrong;
 }

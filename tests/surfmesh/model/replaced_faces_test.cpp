@@ -35,7 +35,7 @@ SurfaceSoup with_hole(const TriMesh& mesh, const Point& at) {
 TEST(ReplacedFaces, KeptFacesAreExactOthersNamedWithDistance) {
   const Model model = make_cylinder("tube", {0, 0, 0}, {2, 0, 0}, k_radius);
   SurfaceMeshOptions options;
-  options.max_edge = 0.15;
+  options.sizes.max_edge = 0.15;
   const SurfaceMesh made = mesh_model(model, options, {}, k_context);
   const ModelWall before(model, made);
   const Point hole{1.0, 0.0, k_radius};

@@ -22,7 +22,7 @@ TEST(SurfaceForecast, IsNearWhatIsMade) {
   const Model box = make_box("box", {0, 0, 0}, {1, 0.4, 0.2});
   for (const double edge : {0.1, 0.03}) {
     SurfaceMeshOptions options;
-    options.max_edge = edge;
+    options.sizes.max_edge = edge;
     const double n = forecast_surface(box, options, {}, {}, k_context).n_triangles, made_of_it = made(box, options);
     EXPECT_NEAR(n / made_of_it, 1.0, 0.3) << edge;
   }
@@ -39,7 +39,7 @@ TEST(SurfaceForecast, IsNearWhatIsMade) {
 TEST(SurfaceForecast, CauseIsRuleThatRequiresMost) {
   const Model box = make_box("box", {0, 0, 0}, {1, 0.4, 0.2});
   SurfaceMeshOptions options;
-  options.max_edge = 0.001;
+  options.sizes.max_edge = 0.001;
   const SurfaceForecast fine = forecast_surface(box, options, {}, {}, k_context);
   EXPECT_GT(fine.n_triangles, 1e6);
   ASSERT_EQ(fine.largest.size(), k_forecast_faces);

@@ -34,11 +34,11 @@ struct Field {
 
   Field(const Model& m, double largest, double angle) : model(m), edges(sample_edges(m, k_context)) {
     SurfaceMeshOptions options;
-    options.max_edge = largest;
-    options.curvature_angle = angle;
-    options.growth = 1.0 + k_growth;
-    options.min_edge = 1e-4 * largest;
-    options.narrow = 100.0;
+    options.sizes.max_edge = largest;
+    options.sizes.curvature_angle = angle;
+    options.sizes.growth = 1.0 + k_growth;
+    options.sizes.min_edge = 1e-4 * largest;
+    options.sizes.narrow = 100.0;
     sizes = sizes_of_faces(model, edges, options, {}, k_context);
     add_local_sizes(model, edges, options, {}, sizes);
     std::vector<AbsorbedPart> absorbed;
@@ -244,7 +244,7 @@ TEST(SurfaceSizes, FamiliesOfMeshesAreSimilar) {
   double before = 0.0;
   for (const double refinement : {1.0, 1.5, 2.25}) {
     SurfaceMeshOptions options;
-    options.refinement = refinement;
+    options.sizes.refinement = refinement;
     options.crossings = "ignore";
     const auto n = static_cast<double>(mesh_model(model, options, {}, k_context).mesh.n_triangles());
     if (before > 0.0) {
@@ -259,8 +259,8 @@ TEST(SurfaceSizes, NarrowFacesBelongToFamiliesToo) {
   double before = 0.0;
   for (const double refinement : {1.0, 1.5, 2.25}) {
     SurfaceMeshOptions options;
-    options.max_edge = 0.2;
-    options.refinement = refinement;
+    options.sizes.max_edge = 0.2;
+    options.sizes.refinement = refinement;
     const auto n = static_cast<double>(mesh_model(plate, options, {}, k_context).mesh.n_triangles());
     if (before > 0.0) {
       EXPECT_NEAR(n / before, 2.25, 0.15 * 2.25) << refinement;

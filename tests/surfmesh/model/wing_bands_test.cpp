@@ -48,8 +48,8 @@ Model fuselage() {
 
 SurfaceMeshOptions banded(double chordwise, double stretch) {
   SurfaceMeshOptions options;
-  options.leading_edge_chordwise = options.trailing_edge_chordwise = chordwise;
-  options.leading_edge_stretch = options.trailing_edge_stretch = stretch;
+  options.sizes.leading_edge_chordwise = options.sizes.trailing_edge_chordwise = chordwise;
+  options.sizes.leading_edge_stretch = options.sizes.trailing_edge_stretch = stretch;
   return options;
 }
 
@@ -248,7 +248,7 @@ TEST(WingBands, TheSameForAnyNumberOfThreads) {
 
 TEST(WingBands, WishesThatCannotBeMetAreTold) {
   const Model box = make_box("crate", {0, 0, 0}, {1, 1, 1});
-  const PatchSurfaceOptions rule{.names = "cra*", .leading_edge_chordwise = 0.01, .trailing_edge_stretch = 8.0};
+  const Rule rule{.names = "cra*", .options = {{"leading_edge_chordwise", 0.01}, {"trailing_edge_stretch", 8.0}}};
   const SurfaceMesh surface = mesh_model(box, {}, std::vector{rule}, k_context);
   ASSERT_EQ(surface.report.bands.notes.size(), 2u);
   EXPECT_THAT(surface.report.bands.notes[0], HasSubstr("no edge of"));
@@ -259,7 +259,7 @@ TEST(WingBands, WishesThatCannotBeMetAreTold) {
 
 TEST(WingBands, RulesForPatchesReachTheirFacesOnly) {
   const Model model = swept_wing(0.0);
-  const PatchSurfaceOptions rule{.names = "W", .leading_edge_chordwise = 0.004, .leading_edge_stretch = 8.0};
+  const Rule rule{.names = "W", .options = {{"leading_edge_chordwise", 0.004}, {"leading_edge_stretch", 8.0}}};
   const SurfaceMesh surface = mesh_model(model, {}, std::vector{rule}, k_context);
   expect_closed(surface);
   EXPECT_EQ(surface.report.bands.n_edges, 4);

@@ -27,7 +27,7 @@ namespace {
 using test::k_context;
 using test::k_degree;
 
-RemeshResult remeshed(const TriMesh& wall, const RemeshOptions& options = {}, std::vector<PatchSurfaceOptions> patches = {}, const SpaceSizes& requested = {}) {
+RemeshResult remeshed(const TriMesh& wall, const RemeshOptions& options = {}, std::vector<Rule> patches = {}, const SpaceSizes& requested = {}) {
   return remesh_surface(wall, options, patches, requested, k_context);
 }
 
@@ -98,7 +98,7 @@ TriMesh strip_wing(int n) {
 TEST(RemeshSurface, CoarseSphereComesNearerToTheSphere) {
   for (const int f : {2, 4}) {
     const TriMesh wall = test::sphere(f, 2.0);
-    const RemeshResult smooth = remeshed(wall, {.max_edge = 0.1}), flat = remeshed(wall, {.max_edge = 0.1, .smooth = false});
+    const RemeshResult smooth = remeshed(wall, {.sizes = {.max_edge = 0.1}}), flat = remeshed(wall, {.sizes = {.max_edge = 0.1}, .smooth = false});
     expect_sound(wall, smooth.mesh);
     expect_sound(wall, flat.mesh);
     EXPECT_LT(farthest_from_sphere(smooth.mesh, 2.0), 0.1 * farthest_from_sphere(flat.mesh, 2.0));
@@ -133,7 +133,7 @@ TEST(RemeshSurface, EllipsoidHasShortEdgesAtItsEnds) {
 
 TEST(RemeshSurface, BoxStaysABox) {
   const TriMesh wall = test::cube(1);
-  const RemeshResult result = remeshed(wall, {.max_edge = 0.1});
+  const RemeshResult result = remeshed(wall, {.sizes = {.max_edge = 0.1}});
   expect_sound(wall, result.mesh);
   EXPECT_EQ(result.report.n_lines, 12);
   EXPECT_EQ(result.report.n_corners, 8);
@@ -185,7 +185,7 @@ void expect_first_row(const TriMesh& mesh, double x, double height) {
 
 TEST(RemeshSurface, RowsAtTheTrailingEdge) {
   const TriMesh wall = strip_wing(24);
-  const RemeshResult plain = remeshed(wall), result = remeshed(wall, {.trailing_edge_chordwise = 0.002, .trailing_edge_stretch = 12.0});
+  const RemeshResult plain = remeshed(wall), result = remeshed(wall, {.sizes = {.trailing_edge_chordwise = 0.002, .trailing_edge_stretch = 12.0}});
   expect_sound(wall, result.mesh);
   EXPECT_LT(result.report.to_input.max, 2e-3 * result.report.length);
   EXPECT_LT(result.report.from_input.max, 2e-3 * result.report.length);
@@ -204,7 +204,7 @@ TEST(RemeshSurface, RowsAtNoses) {
   TriMesh shifted = strip_wing(61);
   for (Point& p : shifted.points) p = {p.x + 0.05 * p.y * p.y, p.y, p.z};
   for (const TriMesh& wall : {strip_wing(24), strip_wing(60), shifted}) {
-    const RemeshResult result = remeshed(wall, {.leading_edge_chordwise = 0.002});
+    const RemeshResult result = remeshed(wall, {.sizes = {.leading_edge_chordwise = 0.002}});
     expect_sound(wall, result.mesh);
     EXPECT_LT(result.report.to_input.max, 3e-3 * result.report.length);
     EXPECT_LT(result.report.from_input.max, 3e-3 * result.report.length);
@@ -213,14 +213,14 @@ TEST(RemeshSurface, RowsAtNoses) {
     EXPECT_EQ(result.report.rows.n_without, 0);
     EXPECT_LT(result.report.rows.max_stretch, 10.0 * 1.4);
   }
-  expect_first_row(remeshed(strip_wing(60), {.leading_edge_chordwise = 0.002}).mesh, 0.0, 0.002);
+  expect_first_row(remeshed(strip_wing(60), {.sizes = {.leading_edge_chordwise = 0.002}}).mesh, 0.0, 0.002);
   // Set by a patch's rule, and applied only there.
-  const RemeshResult by_rule = remeshed(strip_wing(24), {}, {{.names = "wing", .leading_edge_chordwise = 0.002}});
+  const RemeshResult by_rule = remeshed(strip_wing(24), {}, {{.names = "wing", .options = {{"leading_edge_chordwise", 0.002}}}});
   EXPECT_GT(by_rule.report.rows.n_columns, 200);
 }
 
 TEST(RemeshSurface, RowsThatCannotBeAreTold) {
-  const RemeshResult result = remeshed(test::sphere(8), {.leading_edge_chordwise = 0.01, .trailing_edge_chordwise = 0.01});
+  const RemeshResult result = remeshed(test::sphere(8), {.sizes = {.leading_edge_chordwise = 0.01, .trailing_edge_chordwise = 0.01}});
   EXPECT_EQ(result.report.rows.n_triangles, 0);
   ASSERT_EQ(result.report.rows.notes.size(), 2u);
   EXPECT_THAT(result.report.rows.notes[0], testing::HasSubstr("no rows at trailing edges"));
@@ -230,7 +230,7 @@ TEST(RemeshSurface, RowsThatCannotBeAreTold) {
 TEST(RemeshSurface, ThinPlateKeepsItsSides) {
   TriMesh wall = test::cube(6);
   for (Point& p : wall.points) p.z *= 1e-3;
-  const RemeshResult result = remeshed(wall, {.max_edge = 0.1, .min_edge = 0.1});
+  const RemeshResult result = remeshed(wall, {.sizes = {.max_edge = 0.1, .min_edge = 0.1}});
   expect_sound(wall, result.mesh);
   EXPECT_NEAR(test::volume_of(result.mesh), 1e-3, 1e-12);
   EXPECT_LT(result.report.from_input.max, 1e-12);
@@ -244,13 +244,13 @@ TEST(RemeshSurface, SizesOfPatchesSourcesAndRefinement) {
     if (a.z == 1.0 && b.z == 1.0 && c.z == 1.0) wall.triangle_patch[t] = PatchId(1);
   }
   const auto n_of = [](const TriMesh& mesh, PatchId patch) { return std::count(mesh.triangle_patch.begin(), mesh.triangle_patch.end(), patch); };
-  const RemeshResult plain = remeshed(wall, {.max_edge = 0.1});
-  const RemeshResult ruled = remeshed(wall, {.max_edge = 0.1}, {{.names = "l*", .max_edge = 0.05}});
+  const RemeshResult plain = remeshed(wall, {.sizes = {.max_edge = 0.1}});
+  const RemeshResult ruled = remeshed(wall, {.sizes = {.max_edge = 0.1}}, {{.names = "l*", .options = {{"max_edge", 0.05}}}});
   expect_sound(wall, ruled.mesh);
   EXPECT_GT(n_of(ruled.mesh, PatchId(1)), 3 * n_of(plain.mesh, PatchId(1)));
   SpaceSizes requested;
   requested.regions = [](const Point& p, double slope) { return 0.01 + slope * distance(p, {0.5, 0.5, 0.0}); };
-  const RemeshResult near = remeshed(wall, {.max_edge = 0.1}, {}, requested);
+  const RemeshResult near = remeshed(wall, {.sizes = {.max_edge = 0.1}}, {}, requested);
   expect_sound(wall, near.mesh);
   double shortest = 1.0;
   for (const TriangleId t : near.mesh.triangles.ids()) {
@@ -259,10 +259,10 @@ TEST(RemeshSurface, SizesOfPatchesSourcesAndRefinement) {
   }
   EXPECT_LT(shortest, 0.015);
   EXPECT_GT(near.mesh.n_triangles(), plain.mesh.n_triangles() + 200);
-  const RemeshResult fine = remeshed(wall, {.max_edge = 0.1, .refinement = 1.5});
+  const RemeshResult fine = remeshed(wall, {.sizes = {.max_edge = 0.1, .refinement = 1.5}});
   EXPECT_NEAR(static_cast<double>(fine.mesh.n_triangles()) / static_cast<double>(plain.mesh.n_triangles()), 2.25, 0.3);
-  const RemeshResult thin = remeshed(wall, {.max_edge = 0.2, .thickness_factor = 0.1});
-  EXPECT_GT(thin.mesh.n_triangles(), 2 * remeshed(wall, {.max_edge = 0.2}).mesh.n_triangles());
+  const RemeshResult thin = remeshed(wall, {.sizes = {.max_edge = 0.2, .thickness_factor = 0.1}});
+  EXPECT_GT(thin.mesh.n_triangles(), 2 * remeshed(wall, {.sizes = {.max_edge = 0.2}}).mesh.n_triangles());
 }
 
 TEST(RemeshSurface, HalfKeepsItsRim) {
@@ -284,7 +284,7 @@ TEST(RemeshSurface, HalfKeepsItsRim) {
   const Topology border(half, k_context);
   for (std::size_t h = 0; h < border.n_halfedges(); ++h)
     if (border.is_boundary(HalfedgeId(h))) half.points[border.from(HalfedgeId(h))].y = 0.0;
-  const RemeshResult result = remeshed(half, {.max_edge = 0.15});
+  const RemeshResult result = remeshed(half, {.sizes = {.max_edge = 0.15}});
   expect_sound(half, result.mesh);
   const Topology topology(result.mesh, k_context);
   for (std::size_t h = 0; h < topology.n_halfedges(); ++h)
@@ -318,7 +318,7 @@ TEST(RemeshSurface, NoTriangleLiesInTheRimsPlane) {
       add(at(i, j), at(i + 1, j + 1), at(i, j + 1));
     }
   for (const double edge : {0.02, 0.1, 0.3}) {
-    const RemeshResult result = remeshed(half, {.max_edge = edge});
+    const RemeshResult result = remeshed(half, {.sizes = {.max_edge = edge}});
     expect_sound(half, result.mesh);
     for (const TriangleVertices& v : result.mesh.triangles)
       EXPECT_FALSE(std::ranges::all_of(v, [&](VertexId k) { return std::abs(result.mesh.points[k].y) < 1e-6; })) << edge << " " << result.mesh.points[v[0]].x;
@@ -328,7 +328,7 @@ TEST(RemeshSurface, NoTriangleLiesInTheRimsPlane) {
 TEST(RemeshSurface, SameBytesForAnyThreads) {
   const TriMesh wall = strip_wing(40);
   std::vector<TriMesh> meshes;
-  const RemeshOptions options{.leading_edge_chordwise = 0.002, .trailing_edge_chordwise = 0.004};
+  const RemeshOptions options{.sizes = {.leading_edge_chordwise = 0.002, .trailing_edge_chordwise = 0.004}};
   for (const int threads : {1, 2, 7}) meshes.push_back(remesh_surface(wall, options, {}, {}, RunContext({.threads = threads})).mesh);
   for (const TriMesh& mesh : meshes) {
     EXPECT_EQ(mesh.points, meshes[0].points);
@@ -351,8 +351,9 @@ TEST(RemeshSurface, UnreachableDemandEndsItEarly) {
   test::expect_error(ErrorCode::geometry_failed, "of their edges from the input triangles", [&] { demanding({.largest_distance_of_edge = 1e-4}); });
   // Edges that span 40 degrees of a sphere with finer triangles.
   const TriMesh fine = test::sphere(24);
-  test::expect_error(ErrorCode::geometry_failed, "of the area is turned by more than 10 degrees",
-                     [&] { remesh_surface(fine, {.max_edge = 0.7, .min_edge = 0.7, .curvature_angle = 1.0}, {}, {}, {.more_turned = 0.005}, k_context); });
+  test::expect_error(ErrorCode::geometry_failed, "of the area is turned by more than 10 degrees", [&] {
+    remesh_surface(fine, {.sizes = {.max_edge = 0.7, .min_edge = 0.7, .curvature_angle = 1.0}}, {}, {}, {.more_turned = 0.005}, k_context);
+  });
   // A blunt edge of two corners 1e-4 apart: corners are kept, so the slivers beside them remain.
   TriMesh wedge = test::cube(1);
   for (Point& p : wedge.points)
@@ -377,7 +378,7 @@ TEST(RemeshSurface, LineThinPiecesDoNotRefineEndlessly) {
 }
 
 TEST(RemeshSurface, EndlessHalvingIsErrorWithLocation) {
-  const Error error = test::error_of([] { remeshed(line_like_box(), {.max_edge = 1e-7, .max_triangles = 20'000}); });
+  const Error error = test::error_of([] { remeshed(line_like_box(), {.sizes = {.max_edge = 1e-7, .max_triangles = 20'000}}); });
   EXPECT_EQ(error.code(), ErrorCode::overflow);
   EXPECT_THAT(error.what(), testing::HasSubstr("halving long edges did not end"));
   ASSERT_EQ(error.info().locations.size(), 1u);
@@ -386,10 +387,12 @@ TEST(RemeshSurface, EndlessHalvingIsErrorWithLocation) {
 
 TEST(RemeshSurface, Refusals) {
   const TriMesh wall = test::cube(2);
-  test::expect_error(ErrorCode::bad_argument, "none", [&] { remeshed(wall, {}, {{.names = "none", .max_edge = 0.1}}); });
-  test::expect_error(ErrorCode::bad_argument, "trailing_edge_cells", [&] { remeshed(wall, {}, {{.names = "cube", .trailing_edge_cells = 5.0}}); });
-  test::expect_error(ErrorCode::overflow, "max_triangles", [&] { remeshed(wall, {.max_edge = 0.01, .max_triangles = 1000}); });
-  test::expect_error(ErrorCode::bad_argument, "positive", [&] { remeshed(wall, {.max_edge = -1.0}); });
+  test::expect_error(ErrorCode::bad_argument, "none", [&] { remeshed(wall, {}, {{.names = "none", .options = {{"max_edge", 0.1}}}}); });
+  test::expect_error(ErrorCode::bad_argument, "trailing_edge_cells", [&] {
+    remeshed(wall, {}, {{.names = "cube", .options = {{"trailing_edge_cells", 5.0}}}});
+  });
+  test::expect_error(ErrorCode::overflow, "max_triangles", [&] { remeshed(wall, {.sizes = {.max_edge = 0.01, .max_triangles = 1000}}); });
+  test::expect_error(ErrorCode::bad_argument, "positive", [&] { remeshed(wall, {.sizes = {.max_edge = -1.0}}); });
   test::expect_error(ErrorCode::empty_surface, "no triangles", [&] { remeshed(TriMesh{}); });
   TriMesh crossing = wall;
   TriMesh second = wall;
@@ -424,7 +427,8 @@ INSTANTIATE_TEST_SUITE_P(Files, RemeshRealFile,
                          testing::Values(RealFile{"clean/wing_body_79k.stl", 1.3e-3}, RealFile{"clean/derived_crm_wb_dpw_coarse_full.off", 1e-3},
                                          RealFile{"clean/flowpanel_cessna_cessna.msh", 1e-3}, RealFile{"clean/meshpy_ka6d_ka-6d.ply", 6e-3},
                                          RealFile{"clean/cgal_data_anchor_dense.off", 5e-3},
-                                         RealFile{"clean/drivaer_frontWheels.obj.gz", 2.5e-3, {.min_edge = 0.004, .curvature_angle = 20.0 * k_degree}},
+                                         RealFile{
+                                             "clean/drivaer_frontWheels.obj.gz", 2.5e-3, {.sizes = {.min_edge = 0.004, .curvature_angle = 20.0 * k_degree}}},
                                          RealFile{"nasty/axom_surf_naca0012.stl", 2.5e-3}));
 
 }  // namespace

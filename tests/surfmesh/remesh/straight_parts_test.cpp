@@ -213,7 +213,7 @@ TEST(StraightParts, SlottedPlateStaysStraightAndFlat) {
 
 TEST(StraightParts, RoundedBoxStaysFlat) {
   for (const auto& [r, n] : {std::pair(0.1, 6), std::pair(0.05, 4), std::pair(0.2, 3)}) {
-    const TriMesh wall = rounded_box(2.0, 1.0, 0.5, r, n), made = new_triangles(wall, {.max_edge = 0.15});
+    const TriMesh wall = rounded_box(2.0, 1.0, 0.5, r, n), made = new_triangles(wall, {.sizes = {.max_edge = 0.15}});
     expect_same_box(wall, made);
     PartDeviation all;
     for (const Point& p : made.points) {

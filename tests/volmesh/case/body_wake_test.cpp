@@ -21,7 +21,7 @@ MeshCase member(double refinement, const std::string& family_wake = "automatic")
 }
 
 MeshCase with_rule(MeshCase mesh_case, const std::string& kind) {
-  mesh_case.patches = {{.names = "*", .kind = kind}};
+  mesh_case.patches = {{.names = "*", .options = {{"kind", kind}}}};
   return mesh_case;
 }
 

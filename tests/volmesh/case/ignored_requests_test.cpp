@@ -22,7 +22,7 @@ struct Outcome {
   std::string error, log;
 };
 
-Outcome outcome_of(const std::vector<PatchRule>& rules, const EnvelopeOptions& all = {}) {
+Outcome outcome_of(const std::vector<Rule>& rules, const EnvelopeOptions& all = {}) {
   const Column<PatchId, Patch> patches{{"wing", PatchKind::wall}, {"body", PatchKind::wall}, {"floor", PatchKind::slip}, {"farfield", PatchKind::farfield}};
   const Column<PatchId, std::uint8_t> has_layer{std::uint8_t{1}, std::uint8_t{0}, std::uint8_t{0}, std::uint8_t{0}};
   MeshCase options;
@@ -40,22 +40,22 @@ Outcome outcome_of(const std::vector<PatchRule>& rules, const EnvelopeOptions& a
 
 TEST(IgnoredRequests, EachIneffectiveRequestIsAnErrorWithName) {
   struct Case {
-    PatchRule rule;
+    Rule rule;
     std::string request, patch, remedy;
   };
   const std::string wall = "kind = \"wall\"", layers = "layers = 1 or more";
   const std::vector<Case> cases = {
-      {{.names = "farfield", .layers = 10}, "layers = 10", "\"farfield\" (of kind farfield)", wall},
-      {{.names = "floor", .first_height = 1e-3}, "first_height = 0.001", "\"floor\" (of kind slip)", wall},
-      {{.names = "f*", .max_growth = 1.2}, "max_growth = 1.2", "\"floor\" (of kind slip), \"farfield\" (of kind farfield)", wall},
-      {{.names = "floor", .total_height = 0.1}, "total_height = 0.1", "\"floor\"", wall},
-      {{.names = "floor", .max_thickness = 0.1}, "max_thickness = 0.1", "\"floor\"", wall},
-      {{.names = "floor", .blend = 0.1}, "blend = 0.1", "\"floor\"", wall},
-      {{.names = "floor", .open_ridges = "always"}, "open_ridges = \"always\"", "\"floor\"", wall},
-      {{.names = "floor", .truncate = "auto"}, "truncate = \"auto\"", "\"floor\"", wall},
-      {{.names = "body", .layers = 0, .total_height = 0.1}, "total_height = 0.1", "\"body\" (no layers are requested there)", layers},
-      {{.names = "body", .first_height = 1e-3}, "first_height = 0.001", "\"body\"", layers},
-      {{.names = "floor", .kind = "slip", .layers = 4}, "layers = 4", "\"floor\"", wall},
+      {{.names = "farfield", .options = {{"layers", 10}}}, "layers = 10", "\"farfield\" (of kind farfield)", wall},
+      {{.names = "floor", .options = {{"first_height", 1e-3}}}, "first_height = 0.001", "\"floor\" (of kind slip)", wall},
+      {{.names = "f*", .options = {{"max_growth", 1.2}}}, "max_growth = 1.2", "\"floor\" (of kind slip), \"farfield\" (of kind farfield)", wall},
+      {{.names = "floor", .options = {{"total_height", 0.1}}}, "total_height = 0.1", "\"floor\"", wall},
+      {{.names = "floor", .options = {{"max_thickness", 0.1}}}, "max_thickness = 0.1", "\"floor\"", wall},
+      {{.names = "floor", .options = {{"blend", 0.1}}}, "blend = 0.1", "\"floor\"", wall},
+      {{.names = "floor", .options = {{"open_ridges", "always"}}}, "open_ridges = \"always\"", "\"floor\"", wall},
+      {{.names = "floor", .options = {{"truncate", "auto"}}}, "truncate = \"auto\"", "\"floor\"", wall},
+      {{.names = "body", .options = {{"layers", 0}, {"total_height", 0.1}}}, "total_height = 0.1", "\"body\" (no layers are requested there)", layers},
+      {{.names = "body", .options = {{"first_height", 1e-3}}}, "first_height = 0.001", "\"body\"", layers},
+      {{.names = "floor", .options = {{"kind", "slip"}, {"layers", 4}}}, "layers = 4", "\"floor\"", wall},
   };
   for (const Case& c : cases)
     EXPECT_THAT(outcome_of({c.rule}).error,
@@ -64,20 +64,20 @@ TEST(IgnoredRequests, EachIneffectiveRequestIsAnErrorWithName) {
 }
 
 TEST(IgnoredRequests, AllAreNamedTogether) {
-  EXPECT_THAT(outcome_of({{.names = "farfield", .layers = 10}, {.names = "floor", .first_height = 1e-3}}).error,
+  EXPECT_THAT(outcome_of({{.names = "farfield", .options = {{"layers", 10}}}, {.names = "floor", .options = {{"first_height", 1e-3}}}}).error,
               AllOf(HasSubstr("patches[\"farfield\"]"), HasSubstr("patches[\"floor\"]")));
 }
 
 TEST(IgnoredRequests, WhatHasAnEffectOrIsReplacedPasses) {
-  const std::vector<std::vector<PatchRule>> cases = {
-      {{.names = "*", .layers = 10}},                                             // affects the wing
-      {{.names = "floor", .layers = 0}},                                          // equals the present state
-      {{.names = "floor", .kind = "slip"}},                                       // equals the present state
-      {{.names = "floor", .layers = 10}, {.names = "floor", .kind = "slip"}},     // replaced on purpose
-      {{.names = "body", .first_height = 1e-3}, {.names = "body", .layers = 0}},  // replaced on purpose
-      {{.names = "floor", .open_ridges = "never"}, {.names = "body", .truncate = "never"}},
+  const std::vector<std::vector<Rule>> cases = {
+      {{.names = "*", .options = {{"layers", 10}}}},                                                            // affects the wing
+      {{.names = "floor", .options = {{"layers", 0}}}},                                                         // equals the present state
+      {{.names = "floor", .options = {{"kind", "slip"}}}},                                                      // equals the present state
+      {{.names = "floor", .options = {{"layers", 10}}}, {.names = "floor", .options = {{"kind", "slip"}}}},     // replaced on purpose
+      {{.names = "body", .options = {{"first_height", 1e-3}}}, {.names = "body", .options = {{"layers", 0}}}},  // replaced on purpose
+      {{.names = "floor", .options = {{"open_ridges", "never"}}}, {.names = "body", .options = {{"truncate", "never"}}}},
   };
-  for (const std::vector<PatchRule>& rules : cases) {
+  for (const std::vector<Rule>& rules : cases) {
     const Outcome outcome = outcome_of(rules);
     EXPECT_THAT(outcome.error, IsEmpty()) << rules.front().names;
     EXPECT_THAT(outcome.log, IsEmpty());
@@ -87,8 +87,8 @@ TEST(IgnoredRequests, WhatHasAnEffectOrIsReplacedPasses) {
 TEST(IgnoredRequests, UnusedOptionsOfAllWallsAreWarnings) {
   EnvelopeOptions all;
   all.first_height = 1e-3;
-  EXPECT_THAT(outcome_of({{.names = "wing", .first_height = 1e-4}}, all).log, HasSubstr("first_height = 0.001 of all walls has no effect"));
-  EXPECT_THAT(outcome_of({{.names = "wing", .layers = 5}}, all).log, IsEmpty());
+  EXPECT_THAT(outcome_of({{.names = "wing", .options = {{"first_height", 1e-4}}}}, all).log, HasSubstr("first_height = 0.001 of all walls has no effect"));
+  EXPECT_THAT(outcome_of({{.names = "wing", .options = {{"layers", 5}}}}, all).log, IsEmpty());
 }
 
 std::string error_of_farfield(const FarfieldOptions& options) {

@@ -25,7 +25,7 @@ std::string message_of(const std::function<void()>& work) {
 
 TEST(SolveLayers, TheFewestLayersThatReachTheHeight) {
   for (const double growth : {1.0, 1.1, 1.2, 1.4}) {
-    const LayerChoice requested{.layers = 30, .first_height = 1e-4, .max_growth = growth, .total_height = 0.01};
+    const EnvelopeOptions requested{.layers = 30, .first_height = 1e-4, .max_growth = growth, .total_height = 0.01};
     const int n = solve_layers(requested, "layers", "walls").layers;
     EXPECT_GE(layer_height(1e-4, growth, n), 0.01 * (1 - 1e-9)) << growth;
     EXPECT_LT(layer_height(1e-4, growth, n - 1), 0.01) << growth;
@@ -33,12 +33,12 @@ TEST(SolveLayers, TheFewestLayersThatReachTheHeight) {
 }
 
 TEST(SolveLayers, TheGrowthThatReachesTheHeight) {
-  const LayerChoice solved = solve_layers({.layers = 25, .first_height = 2e-5, .max_growth = 9.0, .total_height = 0.01}, "max_growth", "walls");
+  const EnvelopeOptions solved = solve_layers({.layers = 25, .first_height = 2e-5, .max_growth = 9.0, .total_height = 0.01}, "max_growth", "walls");
   EXPECT_NEAR(layer_height(2e-5, solved.max_growth, 25), 0.01, 1e-12);
 }
 
 TEST(SolveLayers, RefusesWhatCannotBe) {
-  const LayerChoice requested{.layers = 10, .first_height = 1e-4, .max_growth = 1.2, .total_height = 0.05};
+  const EnvelopeOptions requested{.layers = 10, .first_height = 1e-4, .max_growth = 1.2, .total_height = 0.05};
   EXPECT_THAT(message_of([&] { solve_layers(requested, "none", "patch wing"); }),
               testing::AllOf(testing::HasSubstr("patch wing"), testing::HasSubstr("needs a growth of"), testing::HasSubstr("26 layers are enough")));
   EXPECT_THAT(message_of([] { solve_layers({.layers = 10, .first_height = 1e-2, .max_growth = 1.2, .total_height = 0.05}, "max_growth", "walls"); }),
@@ -59,8 +59,8 @@ TEST(Refined, FirstHeightGrowthAndLayersAreExact) {
   medium.envelope.layers = 30;
   medium.envelope.first_height = 1e-4;
   medium.envelope.max_growth = 1.3;
-  medium.farfield.farfield_sides = "x_min=inflow x_max=outflow,edge:0.5";
-  medium.patches = {{.names = "a", .layers = 20, .first_height = 1e-3, .max_growth = 1.2, .total_height = 0.1}, {.names = "b"}};
+  medium.farfield.farfield_sides = parse_sides("x_min=inflow x_max=outflow,edge:0.5");
+  medium.patches = {{.names = "a", .options = {{"layers", 20}, {"first_height", 1e-3}, {"max_growth", 1.2}, {"total_height", 0.1}}}, {.names = "b"}};
   medium.size.size_max = 3.0;
   medium.sources = {{.size = 0.1}};
   medium.discs = {{.radius = 1.2}};
@@ -69,15 +69,15 @@ TEST(Refined, FirstHeightGrowthAndLayersAreExact) {
   EXPECT_EQ(fine.envelope.layers, 45);
   EXPECT_DOUBLE_EQ(fine.envelope.first_height, 1e-4 / 1.5);
   EXPECT_DOUBLE_EQ(std::pow(fine.envelope.max_growth, 1.5), 1.3);
-  EXPECT_EQ(fine.patches[0].layers, 30);
-  EXPECT_DOUBLE_EQ(fine.patches[0].first_height, 1e-3 / 1.5);
-  EXPECT_EQ(fine.patches[0].total_height, 0.1);
-  EXPECT_EQ(fine.patches[1].layers, PatchRule::k_as_all);
+  EXPECT_EQ(value_or(fine.patches[0], "layers", 0), 30);
+  EXPECT_DOUBLE_EQ(value_or(fine.patches[0], "first_height", 0.0), 1e-3 / 1.5);
+  EXPECT_EQ(value_or(fine.patches[0], "total_height", 0.0), 0.1);
+  EXPECT_TRUE(fine.patches[1].options.empty());
   EXPECT_DOUBLE_EQ(fine.size.size_max, 2.0);
   EXPECT_DOUBLE_EQ(fine.size.size_growth, 1.0 + 0.3 / 1.5);
   EXPECT_DOUBLE_EQ(fine.sources[0].size, 0.1 / 1.5);
   EXPECT_DOUBLE_EQ(fine.discs[0].edge, 0.1 / 1.5);
-  EXPECT_EQ(parse_sides(fine.farfield.farfield_sides)[1].edge, 0.5 / 1.5);
+  EXPECT_EQ(fine.farfield.farfield_sides[1].edge, 0.5 / 1.5);
   // The heights of every k-th cell boundary nearly coincide: both laws are samples of one exponential.
   EXPECT_NEAR(layer_height(1e-4 / 1.5, fine.envelope.max_growth, 45) / layer_height(1e-4, 1.3, 30), 1.0, 0.06);
 }
@@ -126,7 +126,7 @@ TEST(TotalHeight, OfAPatchAlone) {
   options.envelope.layers = 10;
   options.envelope.first_height = 0.004;
   options.envelope.max_growth = 1.1;
-  options.patches = {{.names = "north", .total_height = 0.15, .blend = 0.3}};
+  options.patches = {{.names = "north", .options = {{"total_height", 0.15}, {"blend", 0.3}}}};
   const EnvelopeOptions& e = options.envelope;
   const Column<PatchId, double> tallest = [&] {
     const VolumeMeshResult result = volume_mesh(wall, options, RunContext({.threads = 2}));

@@ -35,7 +35,7 @@ TEST(ThinLayers, IsSilentForSeveralRequests) {
   const TriMesh cube = test::cube(4);
   MeshCase with_height = requested(8), with_rule = requested(8), member = requested(8);
   with_height.envelope.total_height = 0.1;
-  with_rule.patches = {{.names = "*", .layers = 20}};
+  with_rule.patches = {{.names = "*", .options = {{"layers", 20}}}};
   member.family.refinement = 1.5;
   for (const MeshCase& mesh_case : {with_height, with_rule, member}) EXPECT_FALSE(thin_layers(cube, mesh_case).has_value());
 }

@@ -87,7 +87,7 @@ TEST(BarePlanes, WallsWithoutLayersBesideOthers) {
   other.triangle_patch.assign(other.n_triangles(), PatchId(0));
   append(wall, other);
   MeshCase options = case_of(5);
-  options.patches = {{.names = "ball", .layers = 0}};
+  options.patches = {{.names = "ball", .options = {{"layers", 0}}}};
   const VolumeMeshResult result = volume_mesh(wall, options, RunContext({.threads = 2}));
   EXPECT_TRUE(result.check.is_valid()) << to_text(result.check);
   EXPECT_GT(count_cells(result.mesh).prisms, 0);
@@ -100,8 +100,8 @@ TEST(BarePlanes, GroundPlaneHasLayersAndOwnEdges) {
     options.farfield.farfield_from_x = options.farfield.farfield_from_y = -8.0;
     options.farfield.farfield_to_x = options.farfield.farfield_to_y = options.farfield.farfield_to_z = 8.0;
     options.farfield.farfield_edge = 2.0;
-    options.farfield.farfield_sides = "symmetry=wall,name:ground,edge:0.7";
-    if (n_layers == 0) options.patches = {{.names = "ground", .layers = 0}};
+    options.farfield.farfield_sides = parse_sides("symmetry=wall,name:ground,edge:0.7");
+    if (n_layers == 0) options.patches = {{.names = "ground", .options = {{"layers", 0}}}};
     const VolumeMeshResult result = meshed_half(options, nullptr, 2);
     const PatchEdges edges = edges_of(result.mesh, "ground");
     EXPECT_LT(edges.longest, 1.3) << n_layers;
@@ -123,7 +123,7 @@ TEST(BarePlanes, GroundPlaneBetweenInflowAndOutflow) {
   options.farfield.farfield_from_x = options.farfield.farfield_from_y = -8.0;
   options.farfield.farfield_to_x = options.farfield.farfield_to_y = options.farfield.farfield_to_z = 8.0;
   options.farfield.farfield_edge = 2.0;
-  options.farfield.farfield_sides = "symmetry=wall,name:ground,edge:0.7 x_min=inflow x_max=outflow";
+  options.farfield.farfield_sides = parse_sides("symmetry=wall,name:ground,edge:0.7 x_min=inflow x_max=outflow");
   const VolumeMeshResult result = meshed_half(options, nullptr, 2);
   EXPECT_EQ(result.mesh.patches.size(), 5u);
   std::map<std::string, std::size_t> borders = border_edges(result);
@@ -135,7 +135,7 @@ TEST(BarePlanes, GroundPlaneBetweenInflowAndOutflow) {
 TEST(BarePlanes, EdgesOfASymmetryPlaneAreTheUsers) {
   MeshCase options = case_of(6);
   const double usual = edges_of(meshed_half(options).mesh, "symmetry").longest;
-  options.farfield.farfield_sides = "symmetry=edge:1";
+  options.farfield.farfield_sides = parse_sides("symmetry=edge:1");
   const PatchEdges fine = edges_of(meshed_half(options).mesh, "symmetry");
   EXPECT_GT(fine.n_triangles, 800u);
   EXPECT_LE(fine.longest, 1.1 * usual);
@@ -143,7 +143,7 @@ TEST(BarePlanes, EdgesOfASymmetryPlaneAreTheUsers) {
 
 TEST(BarePlanes, EdgesThatHaveNoEffectAreErrors) {
   MeshCase options = case_of(6);
-  options.farfield.farfield_sides = "farfield=edge:1";
+  options.farfield.farfield_sides = parse_sides("farfield=edge:1");
   try {
     meshed_half(options);
     ADD_FAILURE() << "no error";

@@ -14,6 +14,7 @@
 #include "io/file/surface_file.h"
 #include "surfmesh/stitch/stitch_surface.h"
 #include "tests/support/data.h"
+#include "tests/support/error_of.h"
 #include "tests/support/test_constants.h"
 #include "tests/support/test_shapes.h"
 #include "volmesh/domain/farfield.h"
@@ -121,7 +122,7 @@ TEST(CompleteBoundary, MakesBoxesOfAnyEdgeLengths) {
                           .farfield_to_y = 5,
                           .farfield_to_z = 6};
   for (const char* sides : {"", "x_min=inflow x_max=outflow,edge:0.5", "y_min=slip,name:floor,edge:0.3 y_max=slip,edge:7"}) {
-    options.farfield_sides = sides;
+    options.farfield_sides = parse_sides(sides);
     const TriMesh whole = complete_boundary(cube, {options, {}}, k_context);
     expect_complete(cube, whole, 3000.0 - 1.0, 1e-12);
     // Angles of the added triangles.
@@ -132,7 +133,7 @@ TEST(CompleteBoundary, MakesBoxesOfAnyEdgeLengths) {
     }
     EXPECT_GT(least, 15.0 * k_pi / 180.0) << sides;
   }
-  options.farfield_sides = "x_min=inflow x_max=outflow,name:exit z_min=slip z_max=slip";
+  options.farfield_sides = parse_sides("x_min=inflow x_max=outflow,name:exit z_min=slip z_max=slip");
   EXPECT_THAT(names_of(complete_boundary(cube, {options, {}}, k_context)),
               UnorderedElementsAre("cube:wall", "inflow:inflow", "exit:outflow", "farfield:farfield", "slip:slip"));
 }
@@ -150,7 +151,7 @@ TEST(CompleteBoundary, MakesCylindersAlongAnyAxis) {
                                   .farfield_to_x = to.x,
                                   .farfield_to_y = to.y,
                                   .farfield_to_z = to.z,
-                                  .farfield_sides = "start=inflow end=outflow,edge:0.4"};
+                                  .farfield_sides = parse_sides("start=inflow end=outflow,edge:0.4")};
     const TriMesh whole = complete_boundary(cube, {options, {}}, k_context);
     expect_complete(cube, whole, 36.0 * k_pi * 20.0 - 1.0, 0.02);
     EXPECT_THAT(names_of(whole), UnorderedElementsAre("cube:wall", "inflow:inflow", "outflow:outflow", "farfield:farfield"));
@@ -200,8 +201,8 @@ TEST(CompleteBoundary, TakesTwoPlanes) {
   // A wing between two walls.
   TriMesh strut = half_of(half_of(moved(test::sphere(8), {0, 0.5, 0}), {.at = 0.1}, k_context), {.at = 1.1, .keep = "-"}, k_context);
   for (const char* shape : {"box", "cylinder"}) {
-    const TriMesh whole =
-        complete_boundary(strut, {{.farfield_shape = shape, .farfield_sides = "symmetry_y_min=slip symmetry_y_max=wall,name:floor"}, {}}, k_context);
+    const TriMesh whole = complete_boundary(
+        strut, {{.farfield_shape = shape, .farfield_sides = parse_sides("symmetry_y_min=slip symmetry_y_max=wall,name:floor")}, {}}, k_context);
     EXPECT_EQ(Topology(whole, k_context).n_boundary_halfedges(), 0u);
     EXPECT_THAT(names_of(whole), ElementsAre("sphere:wall", "farfield:farfield", "slip:slip", "floor:wall"));
     expect_plane(whole, "slip", 1, 0.1, 1.0);
@@ -229,7 +230,7 @@ TEST(CompleteBoundary, TakesTheUsersSurface) {
   expect_complete(half, on_side, 1000.0 - 0.5 * volume_of(body), 1e-3);
   expect_plane(on_side, "side", 1, 0.0, 1.0);
   // A tunnel surface from another program: farfield_sides sets its kind and its name.
-  const TriMesh named = complete_boundary(body, {{.farfield_shape = "surface", .farfield_sides = "cube=slip,name:tunnel"}, tunnel}, k_context);
+  const TriMesh named = complete_boundary(body, {{.farfield_shape = "surface", .farfield_sides = parse_sides("cube=slip,name:tunnel")}, tunnel}, k_context);
   EXPECT_THAT(names_of(named), ElementsAre("sphere:wall", "tunnel:slip"));
   const ErrorInfo beside = completion_error(moved(body, {20, 0, 0}), options);
   EXPECT_THAT(beside.problem, HasSubstr("does not enclose"));
@@ -284,8 +285,9 @@ TEST(CompleteBoundary, SaysWhatIsWrong) {
   EXPECT_EQ(narrow.locations[0].position.y, 1.0);
   EXPECT_THAT(completion_error(cube, {{.farfield_shape = "cylinder", .farfield_radius = 0.5}, {}}).problem, HasSubstr("inside the flat triangles"));
   EXPECT_THAT(completion_error(cube, {{.farfield_shape = "box", .farfield_edge = 1e-4}, {}}).problem, HasSubstr("million triangles"));
-  EXPECT_THAT(completion_error(cube, {{.farfield_shape = "box", .farfield_sides = "x_mim=inflow"}, {}}).problem, HasSubstr("did you mean \"x_min\""));
-  EXPECT_THAT(completion_error(cube, {{.farfield_shape = "box", .farfield_sides = "x_min=inlet"}, {}}).problem, HasSubstr("\"inlet\" is not a patch kind"));
+  EXPECT_THAT(completion_error(cube, {{.farfield_shape = "box", .farfield_sides = parse_sides("x_mim=inflow")}, {}}).problem,
+              HasSubstr("did you mean \"x_min\""));
+  test::expect_error(ErrorCode::bad_argument, "\"inlet\" is not a patch kind", [] { parse_sides("x_min=inlet"); });
 }
 
 TEST(CompleteBoundary, OfHalvesOfRealAircraft) {

@@ -101,7 +101,7 @@ TEST(Floor, TerrainWithHouseGetsSidesAndLid) {
   const TriMesh sheet = terrain(true);
   for (const int n_layers : {8, 0}) {
     MeshCase options = case_over_floor(n_layers);
-    options.farfield.farfield_sides = "x_min=inflow x_max=outflow y_min=slip,name:sides y_max=slip,name:sides";
+    options.farfield.farfield_sides = parse_sides("x_min=inflow x_max=outflow y_min=slip,name:sides y_max=slip,name:sides");
     const VolumeMeshResult result = volume_mesh(sheet, options, RunContext({.threads = 2}));
     EXPECT_TRUE(result.check.is_valid()) << to_text(result.check);
     const double expected = columns_of(sheet, k_lid);
@@ -193,7 +193,7 @@ TEST(Floor, MistakesAreErrorsWithPlaces) {
   refused(sheet, ErrorCode::bad_argument, "a floor needs farfield = box{ floor = ... }", [](Options& o) { o.farfield_shape = "sphere"; });
   refused(sheet, ErrorCode::bad_argument, "the shape \"box\" does not have farfield_radius = 5", [](Options& o) { o.farfield_radius = 5.0; });
   refused(sheet, ErrorCode::bad_argument, "the box begins at z = 2 m, above the lowest point", [](Options& o) { o.farfield_from_z = 2.0; });
-  refused(sheet, ErrorCode::bad_argument, "there is no side \"z_min\"", [](Options& o) { o.farfield_sides = "z_min=wall"; });
+  refused(sheet, ErrorCode::bad_argument, "there is no side \"z_min\"", [](Options& o) { o.farfield_sides = parse_sides("z_min=wall"); });
   refused(terrain(true), ErrorCode::bad_argument, "raise the upper corner of the box", [](Options& o) { o.farfield_to_z = 0.1; });
   refused(test::cube(2), ErrorCode::bad_argument, "its surface is closed", [](Options& o) { o.farfield_floor = "*"; });
 }

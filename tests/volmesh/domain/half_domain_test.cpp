@@ -197,7 +197,7 @@ TEST(HalfDomain, LayerContinuesOverJetBeyondOuterEdge) {
 /// A rule without layers for the jet: the layer height falls to zero at the edge, where a side of the layer would stand in the fluid.
 TEST(HalfDomain, AtAnOuterEdgeTheLayerRunsOut) {
   MeshCase options = layers(8, 1e-3);
-  options.patches = {{.names = "jet", .layers = 0}};
+  options.patches = {{.names = "jet", .options = {{"layers", 0}}}};
   const VolumeMeshResult result = volume_mesh(body_with_jet(), options, RunContext({.threads = 2}));
   EXPECT_TRUE(result.check.is_valid()) << to_text(result.check);
   EXPECT_TRUE(result.mesh.boundary_quads.empty());

@@ -64,7 +64,7 @@ TEST(PeriodicDomain, SidesWithoutKindsInFileAreNoWalls) {
 }
 
 TEST(PeriodicDomain, LayersRequestedOnSidesAreRefused) {
-  for (const PatchRule& rule : {PatchRule{.names = "left", .kind = "wall"}, PatchRule{.names = "right", .layers = 5}}) {
+  for (const Rule& rule : {Rule{.names = "left", .options = {{"kind", "wall"}}}, Rule{.names = "right", .options = {{"layers", 5}}}}) {
     MeshCase options = periodic_layers(10, 1e-3);
     options.patches = {rule};
     EXPECT_THAT(test::error_of([&] { volume_mesh(room(all_slip, is_wing), options, k_context); }).info().problem, HasSubstr("on \"" + rule.names + "\""));
@@ -80,7 +80,7 @@ TEST(PeriodicDomain, FloorLayersHaveEqualEdgesOnBothSides) {
 TEST(PeriodicDomain, TwoDirectionsShareTheirEdges) {
   const TriMesh surface = room([](const std::string&) { return PatchKind::slip; });
   MeshCase options = periodic_layers(8, 1e-3, {{"left", "right"}, {"ceiling", "floor"}});
-  options.patches = {{.names = "inlet", .kind = "wall"}};
+  options.patches = {{.names = "inlet", .options = {{"kind", "wall"}}}};
   const VolumeMeshResult result = matched(surface, options);
   EXPECT_EQ(border_edges(result), (Edges{{"ceiling", 12}, {"floor", 12}, {"left", 12}, {"right", 12}}));
 }

@@ -24,13 +24,13 @@ using testing::HasSubstr;
 Model row_of(const Model& body) { return test::through_duct(std::array{body}, PatchKind::slip); }
 Model blade(double trailing_edge) { return test::blade(trailing_edge, "0012", 0.05); }
 
-TriMesh surface_of(const Model& body, const std::string& pairs, const RunContext& context, std::vector<surfmesh::PatchSurfaceOptions> rules = {}) {
+TriMesh surface_of(const Model& body, const std::string& pairs, const RunContext& context, std::vector<Rule> rules = {}) {
   surfmesh::SurfaceMeshOptions options;
-  options.max_edge = 0.15;
-  options.min_edge = 0.015;
-  options.curvature_angle = 0.4;
-  options.growth = 1.5;
-  options.periodic = pairs;
+  options.sizes.max_edge = 0.15;
+  options.sizes.min_edge = 0.015;
+  options.sizes.curvature_angle = 0.4;
+  options.sizes.growth = 1.5;
+  options.periodic = side_pairs(pairs);
   return surfmesh::mesh_model(row_of(body), options, rules, context).mesh;
 }
 
@@ -82,11 +82,11 @@ TEST(Row, WingEndingInTwoFarfieldPlanes) {
   model.faces = std::move(wing);
   model.solids = {};
   surfmesh::SurfaceMeshOptions options;
-  options.max_edge = 0.15;
-  options.min_edge = 0.015;
-  options.curvature_angle = 0.4;
-  options.growth = 1.5;
-  options.periodic = "symmetry_y_min,symmetry_y_max";
+  options.sizes.max_edge = 0.15;
+  options.sizes.min_edge = 0.015;
+  options.sizes.curvature_angle = 0.4;
+  options.sizes.growth = 1.5;
+  options.periodic = {{"symmetry_y_min", "symmetry_y_max"}};
   const TriMesh surface = surfmesh::mesh_model(model, options, {}, k_context).mesh;
   MeshCase given = layers(8, 1e-3);
   given.periodic = {{"symmetry_y_min", "symmetry_y_max"}};
@@ -108,7 +108,7 @@ TEST(Row, AnyNumberOfThreadsGivesTheSame) {
 }
 
 TEST(Row, BordersDividedDifferentlyNameTheRemedy) {
-  const TriMesh surface = surface_of(blade(0.012), "", k_context, {{.names = "tunnel_left", .max_edge = 0.07}});
+  const TriMesh surface = surface_of(blade(0.012), "", k_context, {{.names = "tunnel_left", .options = {{"max_edge", 0.07}}}});
   const ErrorInfo error = test::error_info_of([&] { volume_mesh(surface, layers_between_sides(6), k_context); });
   EXPECT_EQ(error.code, ErrorCode::bad_argument);
   EXPECT_THAT(error.problem, HasSubstr("have no partner"));

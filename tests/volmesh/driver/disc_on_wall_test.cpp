@@ -199,7 +199,7 @@ TEST(DiscOnWall, NacelleBesideAHalfBody) {
   append(wall, nacelle);
   const ActuatorDisc disc{.name = "prop", .center = {-0.7, 1.5, 0}, .radius = 0.9};
   MeshCase options = eight_layers_with({disc});
-  options.patches = {{.names = "nacelle", .layers = 12, .first_height = 5e-4}};
+  options.patches = {{.names = "nacelle", .options = {{"layers", 12}, {"first_height", 5e-4}}}};
   const VolumeMeshResult result = volume_mesh(wall, options, k_context);
   expect_disc(result, disc, hub_radius(-0.7), 0.9);
   EXPECT_FALSE(result.mesh.layers.is_uniform());

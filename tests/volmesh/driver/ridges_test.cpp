@@ -42,7 +42,7 @@ MeshCase wing_case(bool is_open) {
 Domain opened(const TriMesh& wall, const RidgeOptions& options, std::vector<VertexId> closed = {}) {
   Domain domain;
   domain.wall = wall;
-  open_ridges(options, patches_with_open_ridges(wall.patches, options.is_on(), {}), 1e-3, closed, domain, k_context);
+  open_ridges(options, patches_with_open_ridges(wall.patches, options, {}), 1e-3, closed, domain, k_context);
   return domain;
 }
 
@@ -94,8 +94,9 @@ TEST(Ridges, TooSmallAFirstHeightIsRefused) {
   for (Point& p : wall.points) p.x += 1e9;
   Domain domain;
   domain.wall = wall;
-  test::expect_error(ErrorCode::bad_argument, "too small for coordinates",
-                     [&] { open_ridges({.open_ridges = "always"}, patches_with_open_ridges(wall.patches, true, {}), 1e-3, {}, domain, k_context); });
+  test::expect_error(ErrorCode::bad_argument, "too small for coordinates", [&] {
+    open_ridges({.open_ridges = "always"}, patches_with_open_ridges(wall.patches, {.open_ridges = "always"}, {}), 1e-3, {}, domain, k_context);
+  });
 }
 
 TEST(Ridges, WedgeMeshesAreValidAndKeepWall) {
@@ -124,18 +125,19 @@ TriMesh two_wings() {
 
 TEST(Ridges, PatchesSayWhetherTheirsAreOpened) {
   const TriMesh wall = two_wings();
-  const std::vector<PatchRule> wing_only = {{.names = "wing", .open_ridges = "always"}}, not_tail = {{.names = "tail", .open_ridges = "never"}};
-  const auto base_vertices = [&](bool of_all, const std::vector<PatchRule>& rules) {
+  const std::vector<Rule> wing_only = {{.names = "wing", .options = {{"open_ridges", "always"}}}},
+                          not_tail = {{.names = "tail", .options = {{"open_ridges", "never"}}}};
+  const auto base_vertices = [&](const char* of_all, const std::vector<Rule>& rules) {
     Domain domain;
     domain.wall = wall;
-    open_ridges({}, patches_with_open_ridges(wall.patches, of_all, rules), 1e-3, {}, domain, k_context);
+    open_ridges({}, patches_with_open_ridges(wall.patches, {.open_ridges = of_all}, rules), 1e-3, {}, domain, k_context);
     std::size_t n_behind = 0;
     for (const OpenedRidges::BaseVertex& base_vertex : domain.ridges.base_vertices) n_behind += base_vertex.point.x > 3.0 ? 1 : 0;
     return std::array{domain.ridges.base_vertices.size(), n_behind};
   };
-  EXPECT_EQ(base_vertices(true, {}), (std::array<std::size_t, 2>{14, 7}));
-  EXPECT_EQ(base_vertices(false, wing_only), (std::array<std::size_t, 2>{7, 0}));
-  EXPECT_EQ(base_vertices(true, not_tail), (std::array<std::size_t, 2>{7, 0}));
+  EXPECT_EQ(base_vertices("always", {}), (std::array<std::size_t, 2>{14, 7}));
+  EXPECT_EQ(base_vertices("never", wing_only), (std::array<std::size_t, 2>{7, 0}));
+  EXPECT_EQ(base_vertices("always", not_tail), (std::array<std::size_t, 2>{7, 0}));
   MeshCase mesh_case = wing_case(false);
   mesh_case.patches = wing_only;
   const VolumeMeshResult mesh = volume_mesh(wall, mesh_case, k_context);
@@ -222,7 +224,7 @@ TEST(Ridges, BetweenPatchesWithOtherLayers) {
     if (a.z + b.z + c.z < 0.0) wall.triangle_patch[t] = PatchId(1);
   }
   MeshCase mesh_case = wing_case(true);
-  mesh_case.patches = {{.names = "lower", .layers = 8, .first_height = 2e-3}};
+  mesh_case.patches = {{.names = "lower", .options = {{"layers", 8}, {"first_height", 2e-3}}}};
   const VolumeMeshResult result = volume_mesh(wall, mesh_case, k_context);
   EXPECT_TRUE(result.check.is_valid());
   EXPECT_FALSE(result.mesh.hexahedra.empty());

@@ -157,14 +157,14 @@ TEST(Truncation, PatchesSayWhetherTheirLinesEndEarly) {
   for (const TriangleId t : wall.triangles.ids())
     if (corners(wall, t)[0].x > 1.0) wall.triangle_patch[t] = PatchId(1);
   MeshCase mesh_case = ball_case("never", 30);
-  mesh_case.patches = {{.names = "right", .truncate = "auto"}};
+  mesh_case.patches = {{.names = "right", .options = {{"truncate", "auto"}}}};
   const VolumeMeshResult result = volume_mesh(wall, mesh_case, k_context);
   EXPECT_TRUE(result.check.is_valid());
   ASSERT_EQ(result.layer.patches.size(), 2u);
   EXPECT_EQ(result.layer.patches[0].truncated, 0.0);
   EXPECT_GT(result.layer.patches[1].truncated, 0.0);
   mesh_case = ball_case("auto", 30);
-  mesh_case.patches = {{.names = "*", .truncate = "never"}};
+  mesh_case.patches = {{.names = "*", .options = {{"truncate", "never"}}}};
   EXPECT_TRUE(volume_mesh(wall, mesh_case, k_context).mesh.layers.is_uniform());
 }
 

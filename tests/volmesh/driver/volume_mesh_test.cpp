@@ -60,7 +60,7 @@ TriMesh two_spheres() {
 TEST(VolumeMesh, BodiesApartHaveTheirOwnLayers) {
   const TriMesh wall = two_spheres();
   MeshCase options = thin_layers(wall, 12);
-  options.patches = {{.names = "store", .layers = 5, .first_height = 1e-3}};
+  options.patches = {{.names = "store", .options = {{"layers", 5}, {"first_height", 1e-3}}}};
   const VolumeMeshResult result = volume_mesh(wall, options, RunContext({.threads = 2}));
   EXPECT_TRUE(result.check.is_valid()) << to_text(result.check);
   const std::int64_t n_each = static_cast<std::int64_t>(wall.n_triangles()) / 2;
@@ -77,7 +77,7 @@ TEST(VolumeMesh, BodiesApartHaveTheirOwnLayers) {
   test::expect_error(ErrorCode::bad_argument, "first_height is not given for sphere", [&] { (void)volume_mesh(wall, options, RunContext({.threads = 2})); });
   // The nodes are the same for any number of threads.
   options = thin_layers(wall, 12);
-  options.patches = {{.names = "store", .layers = 5, .first_height = 1e-3}};
+  options.patches = {{.names = "store", .options = {{"layers", 5}, {"first_height", 1e-3}}}};
   EXPECT_EQ(volume_mesh(wall, options, RunContext({.threads = 7})).mesh.points, result.mesh.points);
 }
 

@@ -45,15 +45,15 @@ TEST(AutomaticLayers, PatchesCountWithWhatTheyAskFor) {
   const TriMesh cube = test::cube(4);
   const int of_all = layers_of(cube, requested(1e-4));
   MeshCase finer = requested(1e-4), slower = requested(1e-4), own = requested(1e-4), none = requested(1e-4), slip = requested(1e-4);
-  finer.patches = {{.names = cube.patches[PatchId(0)].name, .first_height = 1e-6}};
-  slower.patches = {{.names = cube.patches[PatchId(0)].name, .max_growth = 1.1}};
+  finer.patches = {{.names = cube.patches[PatchId(0)].name, .options = {{"first_height", 1e-6}}}};
+  slower.patches = {{.names = cube.patches[PatchId(0)].name, .options = {{"max_growth", 1.1}}}};
   EXPECT_GT(layers_of(cube, finer), of_all);
   EXPECT_GT(layers_of(cube, slower), of_all);
-  own.patches = {{.names = "*", .layers = 12}};
+  own.patches = {{.names = "*", .options = {{"layers", 12}}}};
   EXPECT_EQ(layers_of(cube, own), 12);
-  none.patches = {{.names = "*", .layers = 0}};
+  none.patches = {{.names = "*", .options = {{"layers", 0}}}};
   EXPECT_EQ(layers_of(cube, none), 0);
-  slip.patches = {{.names = "*", .kind = "slip"}};
+  slip.patches = {{.names = "*", .options = {{"kind", "slip"}}}};
   EXPECT_EQ(layers_of(cube, slip), 1);  // no wall to stand on: an error later
 }
 

@@ -40,7 +40,7 @@ struct Layer {
   Envelope envelope;
   Extrusion extrusion;
 
-  Layer(TriMesh w, const EnvelopeOptions& options, const std::vector<PatchRule>& rules = {}) : wall(std::move(w)), base(wall, k_context) {
+  Layer(TriMesh w, const EnvelopeOptions& options, const std::vector<Rule>& rules = {}) : wall(std::move(w)), base(wall, k_context) {
     base.demand = demand_of(base, options, rules, nullptr, k_context);
     envelope = build_envelope(base, options, k_context);
     extrusion = extrude_prisms(base, options, {}, envelope, k_context);
@@ -60,11 +60,13 @@ const Patch& patch_at(const TriMesh& mesh, TriangleId t) { return mesh.patches[m
 
 TEST(PatchRules, SetKindsAndMoreSpecificPatternWins) {
   TriMesh room = test::cube_room(2);
-  std::vector<PatchRule> rules = {{.names = "z0", .layers = 7}, {.names = "*", .layers = 5, .max_growth = 1.2}, {.names = "z?", .kind = "slip"}};
+  std::vector<Rule> rules = {{.names = "z0", .options = {{"layers", 7}}},
+                             {.names = "*", .options = {{"layers", 5}, {"max_growth", 1.2}}},
+                             {.names = "z?", .options = {{"kind", "slip"}}}};
   sort_by_pattern(rules);
   EXPECT_EQ(rules.front().names, "*");
   EXPECT_EQ(rules.back().names, "z0");
-  rules.back().kind = "wall";
+  rules.back().options["kind"] = "wall";
   apply_patch_kinds(room, rules);
   const auto layers = layers_of_patches(room.patches, growing_layers_of(1e-3, 9), rules);
   for (const PatchId patch : room.patches.ids()) {
@@ -79,7 +81,7 @@ TEST(PatchRules, SetKindsAndMoreSpecificPatternWins) {
 TEST(PatchRules, UnknownPatchNameIsErrorWithKnownNames) {
   TriMesh room = test::cube_room(1);
   try {
-    apply_patch_kinds(room, std::vector<PatchRule>{{.names = "z00*"}});
+    apply_patch_kinds(room, std::vector<Rule>{{.names = "z00*"}});
     ADD_FAILURE() << "no error";
   } catch (const Error& error) {
     EXPECT_EQ(error.code(), ErrorCode::bad_argument);
@@ -92,7 +94,8 @@ TEST(PatchRules, FirstHeightIsNeededWhereThereAreLayers) {
   const TriMesh room = test::cube_room(1);
   EnvelopeOptions options;
   options.layers = 30;
-  const std::vector<PatchRule> rules = {{.names = "x*", .first_height = 1e-4}, {.names = "y*", .first_height = 1e-4}, {.names = "z0", .layers = 0}};
+  const std::vector<Rule> rules = {
+      {.names = "x*", .options = {{"first_height", 1e-4}}}, {.names = "y*", .options = {{"first_height", 1e-4}}}, {.names = "z0", .options = {{"layers", 0}}}};
   try {
     layers_of_patches(room.patches, options, rules);
     ADD_FAILURE() << "no error";
@@ -107,8 +110,9 @@ TEST(DemandOf, IsEmptyWhereNothingDiffers) {
   const EnvelopeOptions options = growing_layers_of(1e-3, 9);
   EXPECT_TRUE(demand_of(base, options, {}, nullptr, k_context).is_empty());
   EXPECT_TRUE(
-      demand_of(base, options, std::vector<PatchRule>{{.names = "z*", .layers = 9, .first_height = 1e-3, .blend = 0.3}}, nullptr, k_context).is_empty());
-  EXPECT_FALSE(demand_of(base, options, std::vector<PatchRule>{{.names = "z*", .layers = 10}}, nullptr, k_context).is_empty());
+      demand_of(base, options, std::vector<Rule>{{.names = "z*", .options = {{"layers", 9}, {"first_height", 1e-3}, {"blend", 0.3}}}}, nullptr, k_context)
+          .is_empty());
+  EXPECT_FALSE(demand_of(base, options, std::vector<Rule>{{.names = "z*", .options = {{"layers", 10}}}}, nullptr, k_context).is_empty());
 }
 
 TEST(DemandOf, BlendsLogarithmsOverTheStatedDistance) {
@@ -116,9 +120,10 @@ TEST(DemandOf, BlendsLogarithmsOverTheStatedDistance) {
   constexpr double k_blend = 0.25, k_floor = 1e-3, k_other = 1e-4;
   const TriMesh room = test::cube_room(k_n);
   const LayerBase base(room, k_context);
-  const LayerDemand demand =
-      demand_of(base, growing_layers_of(k_other, 9),
-                std::vector<PatchRule>{{.names = "*", .blend = k_blend}, {.names = "z0", .first_height = k_floor, .max_growth = 1.2}}, nullptr, k_context);
+  const LayerDemand demand = demand_of(
+      base, growing_layers_of(k_other, 9),
+      std::vector<Rule>{{.names = "*", .options = {{"blend", k_blend}}}, {.names = "z0", .options = {{"first_height", k_floor}, {"max_growth", 1.2}}}}, nullptr,
+      k_context);
   ASSERT_FALSE(demand.is_empty());
   // The share of the other group at x of the blend is k/(1 + k), k = (1 - x)^2 (1 + 2x); its slope is at most 0.86.
   const double steepest = 0.86 / (k_blend * k_n) * std::log(k_floor / k_other);
@@ -156,7 +161,9 @@ TEST(DemandOf, OnlyConnectedWallsShareNumberOfLayers) {
   const RunContext context({.threads = 2, .log = [&](LogLevel, std::string_view text) { log.emplace_back(text); }});
   const LayerDemand demand =
       demand_of(base, growing_layers_of(1e-3, 9),
-                std::vector<PatchRule>{{.names = "x1", .layers = 12}, {.names = "z*", .layers = 4}, {.names = "body", .layers = 30}}, nullptr, context);
+                std::vector<Rule>{
+                    {.names = "x1", .options = {{"layers", 12}}}, {.names = "z*", .options = {{"layers", 4}}}, {.names = "body", .options = {{"layers", 30}}}},
+                nullptr, context);
   for (const VertexId v : walls.points.ids()) EXPECT_EQ(demand.layers[v], v.index() < n_room ? 12 : 30);
   EXPECT_TRUE(std::any_of(log.begin(), log.end(), [](const std::string& line) {
     return line.find("12, the largest requested (4 by z0, z1; 9 by") != std::string::npos;
@@ -175,7 +182,9 @@ TEST(PatchLayers, WallsThatMeetHaveTheirOwnFirstHeights) {
   constexpr double k_strut = 1e-4, k_others = 4e-4, k_blend = 0.3;
   const EnvelopeOptions options = growing_layers_of(k_others, 8);
   Layer layer(wall, options,
-              {{.names = "*", .blend = k_blend}, {.names = "strut", .layers = 12, .first_height = k_strut}, {.names = "floor", .max_growth = 1.3}});
+              {{.names = "*", .options = {{"blend", k_blend}}},
+               {.names = "strut", .options = {{"layers", 12}, {"first_height", k_strut}}},
+               {.names = "floor", .options = {{"max_growth", 1.3}}}});
   layer.expect_sound();
   EXPECT_EQ(layer.extrusion.layers.n_layers, 12);
   EXPECT_TRUE(layer.extrusion.layers.is_uniform());

@@ -418,9 +418,9 @@ TEST(Inspect, RulesOfPatchesCount) {
   for (const TriangleId t : plates.triangles.ids())
     if (t.index() >= plates.n_triangles() / 2) plates.triangle_patch[t] = PatchId(1);
   InspectRequest request = request_of(20, 1e-4);
-  request.volume.patches.push_back({.names = "*", .max_thickness = 5e-3});
+  request.volume.patches.push_back({.names = "*", .options = {{"max_thickness", 5e-3}}});
   EXPECT_FALSE(inspect(plates, request).find(Kind::lowered));
-  request.volume.patches = {{.names = "nothing", .max_thickness = 5e-3}};
+  request.volume.patches = {{.names = "nothing", .options = {{"max_thickness", 5e-3}}}};
   const InspectReport wrong = inspect(plates, request);
   ASSERT_TRUE(wrong.find(Kind::refused));
   EXPECT_NE(the(wrong, Kind::refused).text.find("nothing"), std::string::npos);

@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <map>
 
 #include "tests/support/rooms.h"
 #include "tests/support/test_shapes.h"
@@ -140,18 +141,14 @@ TEST(PlacedParts, WallsAroundThemHaveLayersToo) {
 }
 
 /// Returns a rule for the floor of the room that sets the given layer option, in which the option has a visible effect.
-PatchRule floor_rule(std::string_view column) {
-  PatchRule rule{.names = "z0"};
-  if (column == "layers") rule.layers = 7;
-  if (column == "first_height") rule.first_height = 2e-3;
-  if (column == "max_growth") rule.max_growth = 1.15;
-  if (column == "total_height") rule.total_height = 0.09;
-  if (column == "max_thickness") rule.max_thickness = 0.04;
-  return rule;
+Rule floor_rule(const std::string& option) {
+  const std::map<std::string, OptionValue> values = {
+      {"layers", 7}, {"first_height", 2e-3}, {"max_growth", 1.15}, {"total_height", 0.09}, {"max_thickness", 0.04}};
+  return {.names = "z0", .options = {{option, values.at(option)}}};
 }
 
 TEST(PlacedParts, RequestsOfSurroundingWallsApplyAsWithoutParts) {
-  for (const std::string_view column : {"layers", "first_height", "max_growth", "total_height", "max_thickness"}) {
+  for (const std::string column : {"layers", "first_height", "max_growth", "total_height", "max_thickness"}) {
     Scene scene = body_at(k_pitch);
     std::uint32_t n_floor = 0;
     for (const PatchId p : scene.surface.patches.ids())
