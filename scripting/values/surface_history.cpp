@@ -2,7 +2,7 @@
 
 #include <utility>
 
-#include "scripting/values/model_surface.h"
+#include "scripting/values/patch_rules.h"
 
 namespace sterna::scripting {
 namespace {
