@@ -5,6 +5,7 @@
 #include <filesystem>
 #include <fstream>
 #include <iterator>
+#include <nlohmann/json.hpp>
 
 #include "scripting/terminal/exit_status.h"
 #include "tests/support/data.h"
@@ -14,9 +15,9 @@ namespace sterna::scripting {
 namespace {
 
 struct Domain {
-  const char* name;
-  const char* wall;     ///< Lua: makes `wall`
-  const char* options;  ///< options of make_envelope and volume_mesh
+  std::string name;
+  std::string wall;     ///< Lua: makes `wall`
+  std::string options;  ///< options of make_envelope and volume_mesh
 };
 
 void PrintTo(const Domain& domain, std::ostream* out) { *out << domain.name; }
@@ -42,8 +43,8 @@ class Continuation : public testing::TestWithParam<Domain> {
 };
 
 TEST_P(Continuation, GivesTheBytesOfTheWholeRun) {
-  const std::string wall = std::string("local wall = read_surface 'box.stl'\n") + GetParam().wall + "\n";
-  const std::string layer = std::string("layers = 4, first_height = 2e-3, ") + GetParam().options;
+  const std::string wall = "local wall = read_surface 'box.stl'\n" + GetParam().wall + "\n";
+  const std::string layer = "layers = 4, first_height = 2e-3, " + GetParam().options;
   run("whole", wall + "volume_mesh{ wall, " + layer + ", stages = 'all.sterna' }:write 'whole.su2'");
   run("envelope", wall + "make_envelope{ wall, " + layer + " }:write 'env.sterna'");
   std::filesystem::remove(folder_ / "room.stl");  // the stage file contains all that is needed
@@ -59,8 +60,8 @@ TEST_P(Continuation, GivesTheBytesOfTheWholeRun) {
 }
 
 TEST_P(Continuation, AcceptsOptionsOfRemainingSteps) {
-  const std::string wall = std::string("local wall = read_surface 'box.stl'\n") + GetParam().wall + "\n";
-  const std::string layer = std::string("layers = 4, first_height = 2e-3, ") + GetParam().options;
+  const std::string wall = "local wall = read_surface 'box.stl'\n" + GetParam().wall + "\n";
+  const std::string layer = "layers = 4, first_height = 2e-3, " + GetParam().options;
   run("whole", wall + "volume_mesh{ wall, " + layer + ", ends_growth = 1.25, size_growth = 1.5, improve_rounds = 3 }:write 'whole.su2'");
   run("envelope", wall + "make_envelope{ wall, " + layer + " }:write 'env.sterna'");
   run("script",
@@ -84,8 +85,8 @@ constexpr const char* k_sizes_vtu =
 class ContinuationWithSources : public Continuation {};
 
 TEST_P(ContinuationWithSources, FileHasTheSources) {
-  const std::string volume = std::string("volume_mesh{ read_surface 'box.stl', layers = 4, first_height = 2e-3, farfield = sphere{ radius = 6 }, ") +
-                             GetParam().options + ", stages = 'all.sterna' }:write 'whole.su2'";
+  const std::string volume = "volume_mesh{ read_surface 'box.stl', layers = 4, first_height = 2e-3, farfield = sphere{ radius = 6 }, " + GetParam().options +
+                             ", stages = 'all.sterna' }:write 'whole.su2'";
   std::ofstream(folder_ / "sizes.vtu") << k_sizes_vtu;
   run("whole", volume);
   std::filesystem::remove(folder_ / "sizes.vtu");
@@ -102,33 +103,16 @@ INSTANTIATE_TEST_SUITE_P(Sources, ContinuationWithSources,
                                                 "sources = { sphere{ {2, 0.5, 0.5}, radius = 0.5, size = 0.2 }, wake{ {1, 0, 0.5}, {1, 1, 0.5}, length = 2, "
                                                 "height = 0.5, spread = 0.1, size = 0.2, size_end = 0.3, direction = {1, 0, 0.1} } }"},
                                          Domain{"Samples", "", "sources = { size_samples 'sizes.vtu' }"}),
-                         [](const testing::TestParamInfo<Domain>& tested) { return std::string(tested.param.name); });
+                         [](const testing::TestParamInfo<Domain>& tested) { return tested.param.name; });
 
-INSTANTIATE_TEST_SUITE_P(
-    Domains, Continuation,
-    testing::Values(
-        Domain{"Half", "wall = half{ wall:move{ 0, -0.5, 0 } }", "farfield = sphere{ radius = 6 }"},
-        Domain{"Disc", "", "farfield = sphere{ radius = 6 }, interfaces = { actuator_disc{ name = 'prop', center = {-0.8, 0.5, 0.5}, radius = 0.6 } }"},
-        Domain{"Periodic", "",
-               "farfield = box{ {-3, -3, -3}, {4, 4, 4}, edge = 1.5, sides = { y_min = { kind = 'slip', name = 'left' }, y_max = { kind = 'slip', name = "
-               "'right' } } }, periodic = { { 'left', 'right' } }"},
-        Domain{"Ridges", "wall = surface_mesh{ box{ {0, 0, 0}, {1, 1, 1} }, max_edge = 0.2 }",
-               "farfield = sphere{ radius = 6 }, open_ridges = 'always', open_angle = 80*deg"},
-        Domain{"WakeSheet",
-               "wall = surface_mesh{ wing{ sections = { { chord = 1, airfoil = 'naca0012' }, { y = 1, chord = 1 } }, trailing_edge = 0 }, max_edge = 0.2 }",
-               "farfield = sphere{ radius = 10 }, wakes = { wake_sheet{ length = 0.5 } }"},
-        Domain{"TunnelWithLayers",
-               "wall = surface_mesh{ box{ {0, 0, 0}, {1, 1, 1} }, test_section{ length = 7, width = 5, height = 5, position = { 0.5, 0.5, 0.5 }, upstream = 3, "
-               "max_edge = 1, "
-               "walls = { layers = 3, first_height = 9e-3 } }, max_edge = 0.3 }",
-               "max_growth = 1.3"},
-        Domain{"SurfaceRules",
-               "wall = surface_mesh{ box{ {0, 0, 0}, {1, 1, 1}, name = 'block' }, max_edge = 0.2, patches = { ['block'] = { first_height = 5e-3, max_thickness "
-               "= 0.02 } } }",
-               "farfield = sphere{ radius = 6 }"},
-        Domain{"PlacedParts", "wall = assembly{ wall:move{ 0, 0, 1.5 }, wall }", "farfield = sphere{ radius = 9 }"},
-        Domain{"FarfieldSurface", "surface_mesh{ box{ {-3, -3, -3}, {4, 4, 4} }, max_edge = 1.5 }:write 'room.stl'", "farfield = 'room.stl'"}),
-    [](const testing::TestParamInfo<Domain>& tested) { return std::string(tested.param.name); });
+std::vector<Domain> domains() {
+  std::vector<Domain> result;
+  for (const nlohmann::json& entry : nlohmann::json::parse(std::ifstream(test::corpus() / "continued_domains.json")))
+    result.push_back({entry.at("name"), entry.at("wall"), entry.at("options")});
+  return result;
+}
+
+INSTANTIATE_TEST_SUITE_P(Domains, Continuation, testing::ValuesIn(domains()), [](const testing::TestParamInfo<Domain>& tested) { return tested.param.name; });
 
 }  // namespace
 }  // namespace sterna::scripting
