@@ -12,9 +12,9 @@ namespace {
 
 using test::ProcessResult;
 
-class CommandLine : public testing::Test {
+class ProgramArguments : public testing::Test {
  protected:
-  CommandLine() : folder(test::scratch()) { std::filesystem::copy(test::corpus() / "scripts" / "box.stl", folder / "box.stl"); }
+  ProgramArguments() : folder(test::scratch()) { std::filesystem::copy(test::corpus() / "scripts" / "box.stl", folder / "box.stl"); }
 
   ProcessResult sterna(const std::vector<std::string>& arguments, double interrupt_after = -1.0) {
     return test::run_process(test::sterna_program(), arguments, folder, interrupt_after);
@@ -30,7 +30,7 @@ class CommandLine : public testing::Test {
   std::filesystem::path folder;
 };
 
-TEST_F(CommandLine, HelpAndVersionSucceedOnStdout) {
+TEST_F(ProgramArguments, HelpAndVersionSucceedOnStdout) {
   EXPECT_EQ(sterna({"--version"}).output, "sterna 0.1.0\n");
   const ProcessResult help = sterna({"--help"});
   EXPECT_EQ(help.status, k_exit_success);
@@ -42,7 +42,7 @@ TEST_F(CommandLine, HelpAndVersionSucceedOnStdout) {
   EXPECT_EQ(mesh.errors, "");
 }
 
-TEST_F(CommandLine, WrongUseIsStatusTwo) {
+TEST_F(ProgramArguments, WrongUseIsStatusTwo) {
   EXPECT_EQ(sterna({}).status, k_exit_usage);
   EXPECT_EQ(sterna({"mash"}).status, k_exit_usage);
   EXPECT_EQ(sterna({"mesh", "box.stl"}).status, k_exit_usage);
@@ -51,7 +51,7 @@ TEST_F(CommandLine, WrongUseIsStatusTwo) {
   EXPECT_EQ(files(), std::vector<std::string>{"box.stl"});
 }
 
-TEST_F(CommandLine, MisspeltNamesGetASuggestion) {
+TEST_F(ProgramArguments, MisspeltNamesGetASuggestion) {
   const std::vector<std::pair<std::vector<std::string>, std::string>> cases = {
       {{"mash", "box.stl"}, "did you mean mesh?"},
       {{"--threads", "2", "covnert", "box.stl", "a.obj"}, "did you mean convert?"},
@@ -69,7 +69,7 @@ TEST_F(CommandLine, MisspeltNamesGetASuggestion) {
   EXPECT_NE(sterna({"info", "parts"}).errors.find("the path is a folder"), std::string::npos);
 }
 
-TEST_F(CommandLine, SurfacesInFormatsOfVolumesAreSurfaces) {
+TEST_F(ProgramArguments, SurfacesInFormatsOfVolumesAreSurfaces) {
   for (const char* name : {"wall.cgns", "wall.adf.cgns", "wall.su2", "wall.vtu", "wall.taumesh", "wall.msh", "wall.meshb", "wall.lb8.ugrid", "wall.vtkhdf"}) {
     SCOPED_TRACE(name);
     const ProcessResult written = sterna({"convert", "box.stl", name});
@@ -90,7 +90,7 @@ TEST_F(CommandLine, SurfacesInFormatsOfVolumesAreSurfaces) {
   EXPECT_NE(sterna({"check", "box.stl"}).errors.find("holds surfaces only"), std::string::npos);
 }
 
-TEST_F(CommandLine, AllWrongOptionsAreNamedTogether) {
+TEST_F(ProgramArguments, AllWrongOptionsAreNamedTogether) {
   const ProcessResult result = sterna({"mesh", "box.stl", "-o", "m.su2", "--layers", "-1", "--split-angle", "400", "--set", "envelope.max_grwoth=2"});
   EXPECT_EQ(result.status, k_exit_usage);
   for (const char* part : {"error: ", "4 problems", "envelope.layers: -1 is not allowed", "(400 deg) is not allowed", "did you mean \"envelope.max_growth\"?",
@@ -99,7 +99,7 @@ TEST_F(CommandLine, AllWrongOptionsAreNamedTogether) {
   EXPECT_EQ(result.output, "");
 }
 
-TEST_F(CommandLine, OutputsAreCheckedBeforeTheWork) {
+TEST_F(ProgramArguments, OutputsAreCheckedBeforeTheWork) {
   const ProcessResult format = sterna({"mesh", "no_such.stl", "--first-height", "1e-3", "-o", "m.docx"});
   EXPECT_EQ(format.status, k_exit_failed);
   EXPECT_NE(format.errors.find("m.docx"), std::string::npos) << format.errors;
@@ -108,7 +108,7 @@ TEST_F(CommandLine, OutputsAreCheckedBeforeTheWork) {
   EXPECT_NE(location.errors.find("there is no folder nowhere"), std::string::npos) << location.errors;
 }
 
-TEST_F(CommandLine, MissingFilesAreNamed) {
+TEST_F(ProgramArguments, MissingFilesAreNamed) {
   for (const std::vector<std::string>& arguments : std::vector<std::vector<std::string>>{
            {"mesh", "no_such.stl", "--first-height", "1e-3", "-o", "m.su2"}, {"check", "no_such.su2"}, {"info", "no_such.stl"}, {"run", "no_such.lua"}}) {
     const ProcessResult result = sterna(arguments);
@@ -120,7 +120,7 @@ TEST_F(CommandLine, MissingFilesAreNamed) {
   EXPECT_EQ(files(), std::vector<std::string>{"box.stl"});
 }
 
-TEST_F(CommandLine, ResultsGoToStdoutAndLogToStderr) {
+TEST_F(ProgramArguments, ResultsGoToStdoutAndLogToStderr) {
   write("case.lua", "print(read_surface{ 'box.stl', unit = mm })");
   const ProcessResult result = sterna({"run", "case.lua"});
   EXPECT_EQ(result.status, k_exit_success) << result.errors;
@@ -132,14 +132,14 @@ TEST_F(CommandLine, ResultsGoToStdoutAndLogToStderr) {
   EXPECT_GT(std::filesystem::file_size(folder / "run.log"), 0u);
 }
 
-TEST_F(CommandLine, InfoDescribesASurfaceInMetres) {
+TEST_F(ProgramArguments, InfoDescribesASurfaceInMetres) {
   const ProcessResult result = sterna({"info", "box.stl", "--unit", "inch"});
   EXPECT_EQ(result.status, k_exit_success) << result.errors;
   for (const char* part : {"STL", "1 unit of the file = 0.0254 m", "12 triangles", "closed", "(0.0254, 0.0254, 0.0254)", "\"box\", wall: 12 triangles"})
     EXPECT_NE(result.output.find(part), std::string::npos) << part << " in\n" << result.output;
 }
 
-TEST_F(CommandLine, AnOpenSurfaceIsDrawn) {
+TEST_F(ProgramArguments, AnOpenSurfaceIsDrawn) {
   std::ifstream whole(folder / "box.stl");
   std::string text{std::istreambuf_iterator<char>(whole), {}};
   const std::size_t facet = text.find(" facet");
@@ -156,7 +156,7 @@ TEST_F(CommandLine, AnOpenSurfaceIsDrawn) {
   EXPECT_TRUE(std::filesystem::exists(folder / "dump" / "m.su2.trouble.vtu"));
 }
 
-TEST_F(CommandLine, CtrlCEndsAScriptWithinASecond) {
+TEST_F(ProgramArguments, CtrlCEndsAScriptWithinASecond) {
   write("case.lua", "while true do pcall(function() while true do end end) end");
   const ProcessResult result = sterna({"run", "case.lua"}, 0.3);
   EXPECT_EQ(result.status, k_exit_interrupted) << result.errors;
@@ -164,13 +164,13 @@ TEST_F(CommandLine, CtrlCEndsAScriptWithinASecond) {
   EXPECT_NE(result.errors.find("stopped on request"), std::string::npos) << result.errors;
 }
 
-TEST_F(CommandLine, FormatsListsTheTable) {
+TEST_F(ProgramArguments, FormatsListsTheTable) {
   const ProcessResult result = sterna({"formats"});
   EXPECT_EQ(result.status, k_exit_success);
   for (const char* part : {"STL", "SU2", "VTU", "read, write"}) EXPECT_NE(result.output.find(part), std::string::npos) << part;
 }
 
-TEST_F(CommandLine, ConvertKeepsWhatItIs) {
+TEST_F(ProgramArguments, ConvertKeepsWhatItIs) {
   ASSERT_EQ(sterna({"convert", "box.stl", "box.obj"}).status, k_exit_success);
   const ProcessResult surface = sterna({"info", "box.obj"});
   EXPECT_NE(surface.output.find("closed"), std::string::npos) << surface.output;
@@ -183,7 +183,7 @@ TEST_F(CommandLine, ConvertKeepsWhatItIs) {
   EXPECT_NE(volume.errors.find("OpenFOAM is not written as a surface"), std::string::npos) << volume.errors;
 }
 
-TEST_F(CommandLine, OpenFoamCasesByEachOfTheirNames) {
+TEST_F(ProgramArguments, OpenFoamCasesByEachOfTheirNames) {
   write("tet.su2",
         "NDIME= 3\nNELEM= 1\n10 0 1 2 3\nNPOIN= 4\n0 0 0\n1 0 0\n0 1 0\n0 0 1\nNMARK= 1\nMARKER_TAG= skin\nMARKER_ELEMS= 4\n5 0 2 1\n5 0 1 3\n5 1 2 3\n5 2 0 "
         "3\n");
@@ -213,7 +213,7 @@ TEST_F(CommandLine, OpenFoamCasesByEachOfTheirNames) {
   EXPECT_NE(refused.errors.find("belongs to new.foam"), std::string::npos) << refused.errors;
 }
 
-TEST_F(CommandLine, ConvertWritesVolumesOrTheirBoundaryOnRequest) {
+TEST_F(ProgramArguments, ConvertWritesVolumesOrTheirBoundaryOnRequest) {
   write("tet.su2",
         "NDIME= 3\nNELEM= 1\n10 0 1 2 3\nNPOIN= 4\n0 0 0\n1 0 0\n0 1 0\n0 0 1\nNMARK= 1\nMARKER_TAG= skin\nMARKER_ELEMS= 4\n5 0 2 1\n5 0 1 3\n5 1 2 3\n5 2 0 "
         "3\n");
@@ -227,7 +227,7 @@ TEST_F(CommandLine, ConvertWritesVolumesOrTheirBoundaryOnRequest) {
   EXPECT_NE(sterna({"info", "tet.vtp"}).output.find("4 triangles"), std::string::npos);
 }
 
-TEST_F(CommandLine, ModelsAreConvertedUnitedDescribedAndChecked) {
+TEST_F(ProgramArguments, ModelsAreConvertedUnitedDescribedAndChecked) {
   write("parts.lua",
         "box{ {0,0,0}, {1,1,1} }:write 'a.step' box{ {0.5,0.25,0.25}, {2,0.75,0.75}, name='arm' }:write 'b.step' fuselage{ name='body', frames={ "
         "{x=0,diameter=1}, {x=3,diameter=1} } }:model():write 'body.smx' "
@@ -265,7 +265,7 @@ TEST_F(CommandLine, ModelsAreConvertedUnitedDescribedAndChecked) {
   }
 }
 
-TEST_F(CommandLine, SumoAndCpacsFilesBecomeStep) {
+TEST_F(ProgramArguments, SumoAndCpacsFilesBecomeStep) {
   STERNA_NEEDS_SHARED_DATA();
   const std::vector<std::pair<std::string, std::string>> files = {{"smx/delta.smx", "5 closed solids"}, {"cpacs/d150.xml", "4 closed solids"}};
   for (const auto& [name, solids] : files) {
@@ -279,7 +279,7 @@ TEST_F(CommandLine, SumoAndCpacsFilesBecomeStep) {
   EXPECT_EQ(sterna({"convert", (test::shared_data() / "smx/delta.smx").string(), "again.smx"}).status, k_exit_success);
 }
 
-TEST_F(CommandLine, UnionOfSurfaceFiles) {
+TEST_F(ProgramArguments, UnionOfSurfaceFiles) {
   std::ifstream box(folder / "box.stl");
   std::ofstream moved(folder / "moved.stl");
   for (std::string line; std::getline(box, line);) {
@@ -296,7 +296,7 @@ TEST_F(CommandLine, UnionOfSurfaceFiles) {
   EXPECT_NE(sterna({"formats"}).output.find("CPACS"), std::string::npos);
 }
 
-TEST_F(CommandLine, DoctorMakesASmallMeshByEachEngine) {
+TEST_F(ProgramArguments, DoctorMakesASmallMeshByEachEngine) {
   const test::ProcessResult result = sterna({"doctor"});
   EXPECT_EQ(result.status, k_exit_success) << result.output << result.errors;
   for (const char* part : {"libTKernel.so", "threads in use", "engine sterna  ok", "engine hxt     ok", "engine tetgen  ok", "VALID"})

@@ -147,9 +147,9 @@ class LeafChanger {
 
 template <class T>
 class StoredValue : public testing::Test {};
-using Values = testing::Types<SurfaceValue, SurfaceRecipe, surfmesh::SurfaceMesh, surfmesh::RemeshResult, volmesh::EnvelopeStage, volmesh::FilledStage,
-                              volmesh::VolumeMeshResult, volmesh::PartEnvelope, KeptPart, KeptEnvelope, ComponentValue>;
-TYPED_TEST_SUITE(StoredValue, Values);
+using StoredTypes = testing::Types<SurfaceValue, SurfaceRecipe, surfmesh::SurfaceMesh, surfmesh::RemeshResult, volmesh::EnvelopeStage, volmesh::FilledStage,
+                                   volmesh::VolumeMeshResult, volmesh::PartEnvelope, KeptPart, KeptEnvelope, ComponentValue>;
+TYPED_TEST_SUITE(StoredValue, StoredTypes);
 
 TYPED_TEST(StoredValue, EachLeafIsInKeyAndBytesAndReadsBack) {
   TypeParam full;

@@ -20,9 +20,9 @@ TEST(SurfaceHistories, LastStepOfEachKindIsFound) {
   SurfaceHistory history = repaired_and_remeshed();
   EXPECT_EQ(last_of<UnionOptions>(history), nullptr);
   surfmesh::RemeshOptions second;
-  second.growth = 1.5;
+  second.sizes.growth = 1.5;
   history.push_back({.options = second});
-  EXPECT_EQ(last_of<surfmesh::RemeshOptions>(history)->growth, 1.5);
+  EXPECT_EQ(last_of<surfmesh::RemeshOptions>(history)->sizes.growth, 1.5);
   const OptionTable table = history_options(history);
   EXPECT_TRUE(std::ranges::any_of(table, [](const Option& option) { return option.name == "growth" && option.get() == OptionValue(1.5); }));
 }
@@ -51,8 +51,7 @@ TEST(SurfaceHistories, ChangesAndFiguresAreReadBack) {
 
 TEST(SurfaceHistories, RecipeIsReadBack) {
   SurfaceRecipe recipe;
-  recipe.patches = {{.names = "wing*"}};
-  recipe.patches.front().max_edge = 0.25;
+  recipe.patches = {{.names = "wing*", .options = {{"max_edge", 0.25}}}};
   recipe.sources = {{.kind = volmesh::SourceKind::sphere, .radius = 1.0, .size = 0.1}};
   for (const bool has_function : {false, true}) {
     recipe.has_function = has_function;
