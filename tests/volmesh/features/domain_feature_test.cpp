@@ -31,7 +31,7 @@ TEST(DomainFeature, ListContainsRequestedFeatures) {
   options.periodic.emplace_back();
   options.wakes.emplace_back();
   EXPECT_EQ(domain_features(options).size(), 5u);
-  options.patches.push_back({.open_ridges = "always"});
+  options.patches.push_back({.names = "*", .options = {{"open_ridges", "always"}}});
   EXPECT_EQ(domain_features(options).size(), 6u);
 }
 
