@@ -15,6 +15,7 @@
 #include "scripting/cli/commands.h"
 #include "scripting/cli/pentagrow_config.h"
 #include "scripting/terminal/exit_status.h"
+#include "scripting/values/consumers.h"
 #include "scripting/values/stored_stages.h"
 #include "scripting/values/summary.h"
 #include "scripting/values/verbs.h"
