@@ -119,7 +119,7 @@ TEST(DescribedValues, RulesReadBackFromBytesAndJson) {
     EXPECT_EQ(read[i].names, layers[i].names);
     EXPECT_EQ(read[i].options, layers[i].options);
   }
-  EXPECT_EQ(rules_json(layers), R"([{"names":"wing*","kind":"wall","layers":12,"first_height":1e-05,"open_ridges":"always"},{"names":"floor"}])");
+  EXPECT_EQ(rules_json(layers).dump(), R"([{"names":"wing*","kind":"wall","layers":12,"first_height":1e-05,"open_ridges":"always"},{"names":"floor"}])");
   EXPECT_EQ(layer_rules_of_json(rules_json(layers))[0].options, layers[0].options);
   EXPECT_EQ(size_rules_of_json(rules_json(sizes))[0].options, sizes[0].options);
   EXPECT_THROW(layer_rules_of_json(rules_json(sizes)), Error);
