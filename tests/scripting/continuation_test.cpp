@@ -6,6 +6,7 @@
 #include <fstream>
 #include <iterator>
 #include <nlohmann/json.hpp>
+#include <stdexcept>
 
 #include "scripting/terminal/exit_status.h"
 #include "tests/support/data.h"
@@ -109,6 +110,7 @@ std::vector<Domain> domains() {
   std::vector<Domain> result;
   for (const nlohmann::json& entry : nlohmann::json::parse(std::ifstream(test::corpus() / "continued_domains.json")))
     result.push_back({entry.at("name"), entry.at("wall"), entry.at("options")});
+  if (result.empty()) throw std::runtime_error("continued_domains.json lists no domain");
   return result;
 }
 

@@ -21,6 +21,9 @@ time.sleep({seconds})
 open("mesh.su2", "w").write({mesh!r})
 if {has_more}:
     open("more.vtu", "w").write("more")
+open("series.csv", "w").write("case,cells,seconds\\na,{cells},%f\\n" % time.time())
+open("measure.json", "w").write('{{"cells": {cells}, "stage_seconds": {{"read": %f}}, "peak_memory_bytes": %d}}' % (time.time(), time.time_ns()))
+open(".lock", "w").write(str(time.time_ns()))
 """
 
 
@@ -29,9 +32,9 @@ class Comparison(unittest.TestCase):
         self.folder = tempfile.TemporaryDirectory()
         self.addCleanup(self.folder.cleanup)
 
-    def program(self, name: str, mesh: str = "mesh", seconds: float = 0.0, has_more: bool = False) -> str:
+    def program(self, name: str, mesh: str = "mesh", seconds: float = 0.0, has_more: bool = False, cells: int = 12) -> str:
         path = pathlib.Path(self.folder.name, name)
-        path.write_text(STAND_IN.format(mesh=mesh, seconds=seconds, has_more=has_more))
+        path.write_text(STAND_IN.format(mesh=mesh, seconds=seconds, has_more=has_more, cells=cells))
         path.chmod(path.stat().st_mode | stat.S_IXUSR)
         return str(path)
 
@@ -42,12 +45,18 @@ class Comparison(unittest.TestCase):
     def test_equal_programs_have_equal_files(self):
         done = self.compare(self.program("a"), self.program("b"))
         self.assertEqual(done.returncode, 0, done.stdout + done.stderr)
-        self.assertIn("1 items, 4 files compared, 0 differ", done.stdout)  # exit status and mesh, for two numbers of threads
+        self.assertIn("1 items, 8 files compared, 0 differ", done.stdout)  # exit status, mesh, table and figures, for two numbers of threads
 
     def test_another_byte_is_reported(self):
         done = self.compare(self.program("a"), self.program("b", mesh="mess"))
         self.assertEqual(done.returncode, 1, done.stdout)
         self.assertIn("2 threads: mesh.su2 differs", done.stdout)
+
+    def test_figures_beside_times_are_compared(self):
+        done = self.compare(self.program("a"), self.program("b", cells=13))
+        self.assertEqual(done.returncode, 1, done.stdout)
+        self.assertIn("1 threads: series.csv differs", done.stdout)
+        self.assertIn("1 threads: measure.json differs", done.stdout)
 
     def test_a_file_of_one_program_is_reported(self):
         done = self.compare(self.program("a"), self.program("b", has_more=True))
