@@ -98,44 +98,33 @@ constexpr std::array<Field<O>, 1> count_fields() {
             .help = "largest number of triangles; more are an error, reported before meshing if the sizes predict it"}}};
 }
 
+/// The fields of rows beside one kind of edges. `Chordwise`, `Stretch` and `Growth`: members of SurfaceSizeOptions.
+template <class O, auto Chordwise, auto Stretch, auto Growth>
+constexpr std::array<Field<O>, 3> row_fields(std::array<std::string_view, 3> names, std::string_view chordwise_help) {
+  return {{{.name = names[0],
+            .member = inner_option<&O::sizes, Chordwise>(),
+            .unit = Unit::metre,
+            .min = 1e-9,
+            .help = chordwise_help,
+            .automatic = "no rows, or the longest edge divided by the stretch"},
+           {.name = names[1],
+            .member = inner_option<&O::sizes, Stretch>(),
+            .min = 1.0,
+            .max = 50.0,
+            .help = "ratio of the longest cell along the edge to the first cell across it",
+            .automatic = "no rows, or 10"},
+           {.name = names[2], .member = inner_option<&O::sizes, Growth>(), .min = 1.01, .max = 1.2, .help = "ratio of the heights of consecutive rows"}}};
+}
+
 template <class O>
 constexpr std::array<Field<O>, 6> edge_row_fields() {
   using S = SurfaceSizeOptions;
-  constexpr std::string_view no_first = "no rows, or the longest edge divided by the stretch", no_stretch = "no rows, or 10";
-  return {{{.name = "leading_edge_chordwise",
-            .member = inner_option<&O::sizes, &S::leading_edge_chordwise>(),
-            .unit = Unit::metre,
-            .min = 1e-9,
-            .help = "first cell beside leading edges, in rows of stretched triangles",
-            .automatic = no_first},
-           {.name = "leading_edge_stretch",
-            .member = inner_option<&O::sizes, &S::leading_edge_stretch>(),
-            .min = 1.0,
-            .max = 50.0,
-            .help = "ratio of the longest cell along the edge to the first cell across it",
-            .automatic = no_stretch},
-           {.name = "leading_edge_growth",
-            .member = inner_option<&O::sizes, &S::leading_edge_growth>(),
-            .min = 1.01,
-            .max = 1.2,
-            .help = "ratio of the heights of consecutive rows"},
-           {.name = "trailing_edge_chordwise",
-            .member = inner_option<&O::sizes, &S::trailing_edge_chordwise>(),
-            .unit = Unit::metre,
-            .min = 1e-9,
-            .help = "first cell beside trailing edges, on both sides, or beside the base of blunt trailing edges",
-            .automatic = no_first},
-           {.name = "trailing_edge_stretch",
-            .member = inner_option<&O::sizes, &S::trailing_edge_stretch>(),
-            .min = 1.0,
-            .max = 50.0,
-            .help = "ratio of the longest cell along the edge to the first cell across it",
-            .automatic = no_stretch},
-           {.name = "trailing_edge_growth",
-            .member = inner_option<&O::sizes, &S::trailing_edge_growth>(),
-            .min = 1.01,
-            .max = 1.2,
-            .help = "ratio of the heights of consecutive rows"}}};
+  return joined(
+      row_fields<O, &S::leading_edge_chordwise, &S::leading_edge_stretch, &S::leading_edge_growth>(
+          {"leading_edge_chordwise", "leading_edge_stretch", "leading_edge_growth"}, "first cell beside leading edges, in rows of stretched triangles"),
+      row_fields<O, &S::trailing_edge_chordwise, &S::trailing_edge_stretch, &S::trailing_edge_growth>(
+          {"trailing_edge_chordwise", "trailing_edge_stretch", "trailing_edge_growth"},
+          "first cell beside trailing edges, on both sides, or beside the base of blunt trailing edges"));
 }
 
 }  // namespace sterna::surfmesh
