@@ -1,5 +1,5 @@
-// Rules: options of the patches whose names match a pattern, over the options for all patches. A rule can set any option that has a Field, so that no struct
-// has members for options of patches.
+// Rules: options of the patches whose names match a pattern, over the options for all patches. A rule can set any option that has a Field, so that an
+// option for all patches needs no second member for single ones.
 #pragma once
 
 #include <functional>

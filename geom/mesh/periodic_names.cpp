@@ -41,4 +41,14 @@ std::string side_pairs_text(const std::vector<PeriodicNames>& pairs) {
   return text;
 }
 
+void require_separable(const std::vector<PeriodicNames>& pairs) {
+  for (const PeriodicNames& pair : pairs)
+    for (const std::string& name : {pair.first, pair.second})
+      if (name.empty() || name.find_first_of(",;") != std::string::npos || without_blanks(name) != name)
+        throw Error({.code = ErrorCode::bad_argument,
+                     .attempted = "option periodic",
+                     .problem = "\"" + name + "\": names of periodic patches are separated by commas and semicolons",
+                     .hint = "give the patch a name without \",\" and \";\", and without blanks at its ends"});
+}
+
 }  // namespace sterna

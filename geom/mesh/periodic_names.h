@@ -17,5 +17,7 @@ struct PeriodicNames {
 /// \throws Error(bad_argument) for other strings
 std::vector<PeriodicNames> side_pairs(std::string_view text);
 std::string side_pairs_text(const std::vector<PeriodicNames>& pairs);
+/// Checks that side_pairs() restores the pairs from their text. \throws Error(bad_argument) for a name with "," or ";", or with a blank at an end
+void require_separable(const std::vector<PeriodicNames>& pairs);
 
 }  // namespace sterna

@@ -45,12 +45,6 @@ std::string label_of(const pugi::xml_node& node) {
 
 }  // namespace
 
-std::string exact_text(double value) {
-  char buffer[40];
-  const auto result = std::to_chars(buffer, buffer + sizeof buffer, value);
-  return {buffer, result.ptr};
-}
-
 std::optional<double> parse_number(std::string_view text) {
   while (!text.empty() && is_blank(text.front())) text.remove_prefix(1);
   while (!text.empty() && is_blank(text.back())) text.remove_suffix(1);

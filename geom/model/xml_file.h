@@ -9,6 +9,7 @@
 #include <string_view>
 #include <vector>
 
+#include "geom/base/number_text.h"
 #include "geom/base/vec3.h"
 #include "geom/model/nurbs_form.h"
 
@@ -77,8 +78,6 @@ class XmlFile {
   std::vector<std::string> messages_;
 };
 
-/// Returns the shortest text that reads back as the same number, independent of the locale.
-std::string exact_text(double value);
 /// Returns `text` as a finite number; empty if it is not a finite number.
 std::optional<double> parse_number(std::string_view text);
 

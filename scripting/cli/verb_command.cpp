@@ -135,7 +135,8 @@ ScriptValue patches_entry(const PatchEntries& patches) {
     for (const auto& [name, text] : options) {
       const Option& option = find_option(known, name, "--patch \"" + names + "\"");
       set_option_as_typed(option, text);
-      rules[names].fields[std::string(option.name)] = entry_of_option(option);
+      auto& fields = rules[names].fields;  // of an earlier --patch with this pattern, too: its values stay where this one has "automatic"
+      if (is_set(rule, option.name) || !fields.contains(std::string(option.name))) fields[std::string(option.name)] = entry_of_option(option);
     }
   }
   for (auto& [names, rule] : rules) table.fields[names] = std::make_shared<const ScriptTable>(std::move(rule));

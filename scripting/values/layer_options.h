@@ -15,12 +15,10 @@ namespace sterna::scripting {
 
 /// Completes the options of layers after reading:
 /// - solve_for: the option to be derived if a total height is given;
-/// - boundary_layer: the thickness that the layers have to cover, from the flow conditions of first_height, if neither the thickness nor a total height is
-/// given
-///   and the flow has a turbulent layer;
-/// - family_wake: "on" if it is automatic and the mesh is a member of a family. All members have a wake, including the medium one, whose refinement of 1 is
-/// given
-///   explicitly.
+/// - boundary_layer: the thickness that the layers have to cover, from the flow conditions of first_height, if neither the thickness nor a total height
+///   is given and the flow has a turbulent layer;
+/// - family_wake: "on" if it is automatic and the mesh is a member of a family. All members have a wake, including the medium one, whose refinement
+///   of 1 is given explicitly.
 /// `given`: the options of the command line. \throws Error(bad_argument) of volmesh::solved_for
 void complete_layers(volmesh::MeshCase& options, const OptionOverrides& given, std::string_view attempted);
 /// The same for a verb's table and the overrides of the command line. Notes problems.

@@ -215,6 +215,7 @@ void summarise(const Meshing& meshing, SurfaceMesh& mesh) {
 
 void check_options(const SurfaceMeshOptions& options) {
   SurfaceMeshOptions copy = options;
+  require_separable(options.periodic);
   for (const Option& option : options_of(copy))
     if (option.kind != OptionKind::number || option.automatic.empty() || !is_automatic(std::get<double>(option.get()))) set_option(option, option.get());
   if (options.sizes.min_edge > options.sizes.max_edge)  // the comparison is false if either value is automatic

@@ -33,8 +33,8 @@ const std::map<std::string, CommandAndScript>& equivalent_scripts() {
        {{"m.stl", "-o", "h.vtu", "--axis", "z", "--at", "500mm", "--keep", "-", "--unit", "2"},
         "half{ read_surface{ 'm.stl', unit = 2, allow_open = true }, axis = 'z', at = 0.5, keep = '-' }:write 'h.vtu'"}},
       {"remesh",
-       {{"m.stl", "-o", "r.vtu", "-o", "r.stl", "--max-edge", "30cm", "--curvature-angle", "10", "--patch", "wa*:max_edge=0.2", "--source",
-         "sphere 0 0 0 radius=0.5 size=0.1"},
+       {{"m.stl", "-o", "r.vtu", "-o", "r.stl", "--max-edge", "30cm", "--curvature-angle", "10", "--patch", "wa*:max_edge=0.2", "--patch",
+         "wa*:max_edge=automatic", "--source", "sphere 0 0 0 radius=0.5 size=0.1"},
         "remesh{ read_surface{ 'm.stl', allow_open = true }, max_edge = 0.3, curvature_angle = 10*deg, patches = { ['wa*'] = { max_edge = 0.2 } }, sources = { "
         "sphere{ {0, 0, 0}, radius = 0.5, size = 0.1 } } }:write('r.vtu', 'r.stl')"}},
       {"union", {{"m.stl", "n.stl", "-o", "u.stl", "--unit", "2", "--strip-width", "3"}, "union{ 'm.stl', 'n.stl', unit = 2, strip_width = 3 }:write 'u.stl'"}},

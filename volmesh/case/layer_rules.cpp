@@ -27,6 +27,16 @@ constexpr std::array k_layer_rule_options = {
                .choices = "as_all never auto always"},
 };
 
+/// Returns true if the choices of a rule are "as_all" and those of the option for all patches.
+template <class Options>
+constexpr bool repeats_choices(std::string_view name) {
+  constexpr std::string_view k_all = "as_all ";
+  const auto rule = std::ranges::find(k_layer_rule_options, name, &RuleOption::name);
+  const auto field = std::ranges::find(Schema<Options>::fields, name, &Field<Options>::name);
+  return rule->choices.starts_with(k_all) && rule->choices.substr(k_all.size()) == field->choices;
+}
+static_assert(repeats_choices<RidgeOptions>("open_ridges") && repeats_choices<PrismOptions>("truncate"));
+
 }  // namespace
 
 OptionTable layer_rule_options(Rule& rule) {

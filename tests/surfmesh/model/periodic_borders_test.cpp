@@ -225,6 +225,9 @@ TEST(PeriodicBorders, PairsAreReadAndWritten) {
   EXPECT_EQ(pairs, (std::vector<PeriodicNames>{{"left", "right"}, {"floor", "ceiling"}}));
   EXPECT_EQ(side_pairs(side_pairs_text(pairs)), pairs);
   for (const char* wrong : {"left", ",right", "left,", "a,b,c", "a,b;c"}) EXPECT_THROW(side_pairs(wrong), Error) << wrong;
+  require_separable(pairs);
+  for (const char* name : {"a,b", "a;b", " a", "a ", ""})
+    expect_error(ErrorCode::bad_argument, "are separated by commas and semicolons", [&] { require_separable({{"left", name}}); });
 }
 
 }  // namespace

@@ -287,7 +287,10 @@ TEST(CompleteBoundary, SaysWhatIsWrong) {
   EXPECT_THAT(completion_error(cube, {{.farfield_shape = "box", .farfield_edge = 1e-4}, {}}).problem, HasSubstr("million triangles"));
   EXPECT_THAT(completion_error(cube, {{.farfield_shape = "box", .farfield_sides = parse_sides("x_mim=inflow")}, {}}).problem,
               HasSubstr("did you mean \"x_min\""));
-  test::expect_error(ErrorCode::bad_argument, "\"inlet\" is not a patch kind", [] { parse_sides("x_min=inlet"); });
+  test::expect_error(ErrorCode::bad_argument, "\"x_min=inlet\": \"inlet\" is not a patch kind", [] { parse_sides("x_max=slip x_min=inlet"); });
+  test::expect_error(ErrorCode::bad_argument, "\"x_min=edge:5q\": \"5q\" is not a length", [] { parse_sides("x_min=edge:5q"); });
+  test::expect_error(ErrorCode::bad_argument, "\"x_min=wall\": the side is given twice", [] { parse_sides("x_min=slip x_min=wall"); });
+  EXPECT_EQ(sides_text(parse_sides("x_min=slip,edge:10cm")), "x_min=slip,edge:0.1");
 }
 
 TEST(CompleteBoundary, OfHalvesOfRealAircraft) {
