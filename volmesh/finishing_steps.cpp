@@ -17,7 +17,7 @@ namespace {
 constexpr int k_slide_rounds = 4;
 constexpr double k_slides_begin = 0.75;  ///< fraction of the time
 
-/// Improves tetrahedra within the boundary; \p improved is the improvement that has already started. Then, where the boundary is the cause of bad tetrahedra,
+/// Improves tetrahedra within the boundary; \p report is that of the improvement that has already run. Then, where the boundary is the cause of bad tetrahedra,
 /// ends of growth lines move, and the tetrahedra around them are improved again. \p slid receives these growth lines, ascending.
 void slide_and_improve(HybridMesh& layers, FillBoundary& boundary, TetraResult& tets, const ImproveOptions& options, ImproveReport& report,
                        std::vector<std::uint32_t>& slid, const RunContext& context) {

@@ -172,7 +172,9 @@ void set_mesh_options(const MeshRequest& request, bool is_model, AutoSurface& re
   AutoSurface unused;
   std::vector<OptionsElsewhere> elsewhere = options_of_other_files(is_model, request.files().front(), unused);
   elsewhere.push_back({sterna::options_of(unused.repair), "is given without --repair"});
-  elsewhere.push_back({sterna::options_of(unused.wrap), "is given without --wrap"});
+  elsewhere.push_back({sterna::options_of(unused.wrap), request.is_wrapped() || request.is_auto()
+                                                            ? "belongs to the reading of the files: give --unit, --split-angle or --fluid without a stage"
+                                                            : "is given without --wrap"});
   set_options(table, given, context, elsewhere);
   if (is_model && request.is_given("family", "refinement") && !request.is_given("surface_mesh", "refinement"))
     requested.recipe.options.sizes.refinement = volume.family.refinement;

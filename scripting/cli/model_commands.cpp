@@ -22,15 +22,13 @@ constexpr double k_model_read_end = 0.4;
 /// Number of open edges listed by `sterna info`; `sterna check` lists all.
 constexpr std::size_t k_listed_edges = 10;
 
-InputPath input_of(const std::string& name) { return {name, name}; }
-
 }  // namespace
 
 int print_model_info(const CommandLine& line, const CommandContext& context) {
   const std::string file = line.word("file"), unit = line.word("unit");
   ReadCadOptions options;
   if (!unit.empty()) set_options(sterna::options_of(options), {{"unit", unit}}, context);
-  const ModelValue value = read_model(input_of(file), options, context.run.part("read", 0.0, k_model_read_end));
+  const ModelValue value = read_model(input_paths({file}).front(), options, context.run.part("read", 0.0, k_model_read_end));
   const ModelReport measures = measure_model(value, context.run.part("measure", k_model_read_end, 1.0));
   context.console.end_progress();
   if (!value.report.empty() && !value.description) context.console.print(file + ": " + value.report);  // the log has the report of a description
@@ -51,7 +49,7 @@ int check_model(const CommandLine& line, const CommandContext& context) {
     throw Error({.code = ErrorCode::bad_argument, .attempted = "check", .problem = "--json applies to volume meshes; " + input + " is a model"});
   refuse_without_effect(line.given, {"--findings-per-kind", "--strict", "--for", "--cell-centred", "--no-cell-centred", "--cells", "--gate", "--intersections"},
                         "check", input + " is a model, for which check only reports whether it is closed");
-  const ModelValue value = read_model(input_of(input), {}, context.run.part("read", 0.0, 1.0));
+  const ModelValue value = read_model(input_paths({input}).front(), {}, context.run.part("read", 0.0, 1.0));
   context.console.end_progress();
   context.console.print(describe(value));
   context.console.print("  " + closedness_text(value.model, value.model.edges.size()));
@@ -143,7 +141,7 @@ int unite_model_files(const CommandLine& line, const CommandContext& context) {
   for (const std::string& name : inputs) {
     const double i = static_cast<double>(models.size());
     models.push_back(std::make_shared<const ModelValue>(
-        read_model(input_of(name), reading, context.run.part("read", k_model_read_end * i / n, k_model_read_end * (i + 1) / n))));
+        read_model(input_paths({name}).front(), reading, context.run.part("read", k_model_read_end * i / n, k_model_read_end * (i + 1) / n))));
   }
   ModelValue united = unite_solids(models, options, context.run.part("union", k_model_read_end, 0.95));
   united.description.reset();  // the file contains the union, while the description is that of its inputs
@@ -168,7 +166,7 @@ int convert_model(const CommandLine& line, const CommandContext& context) {
   for (Option& option : sterna::options_of(writing)) table.push_back(std::move(option));
   set_options(table, line.options, context);
   if (!is_model_output(output)) require_model_output({}, output);  // before the input is read
-  const ModelValue value = read_model(input_of(input), reading, context.run.part("read", 0.0, k_model_read_end));
+  const ModelValue value = read_model(input_paths({input}).front(), reading, context.run.part("read", 0.0, k_model_read_end));
   write_model(value, output, writing, context.run.part("write", k_model_read_end, 1.0));
   context.console.end_progress();
   context.run.info("wrote " + output.string() + ": " + describe(value));

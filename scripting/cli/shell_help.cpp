@@ -36,7 +36,8 @@ std::string replaced(std::string text, const std::string& what, const std::strin
 
 /// Returns the text up to the first full stop: for one line of a menu.
 std::string first_sentence(const std::string& text) {
-  const std::size_t end = text.find(". ");
+  std::size_t end = text.find(". ");
+  while (end != std::string::npos && end > 0 && text[end - 1] == '.') end = text.find(". ", end + 1);  // ".." is the sign of a range
   return replaced(text.substr(0, end), "\n", " ");
 }
 

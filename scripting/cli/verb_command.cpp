@@ -4,7 +4,6 @@
 #include <memory>
 
 #include "geom/base/error.h"
-#include "io/output/atomic_file.h"
 #include "scripting/cli/commands.h"
 #include "scripting/interpreter/script_help.h"
 #include "scripting/interpreter/script_state.h"
@@ -49,15 +48,17 @@ void require_other_output(const std::vector<std::string>& inputs, const std::fil
 }
 
 /// Writes the surface to the outputs of the command.
-int write_made(const SurfaceValue& surface, const CommandLine& line, const CommandContext& context) {
+void write_made(const SurfaceValue& surface, const CommandLine& line, const CommandContext& context) {
   for (const std::string& output : line.all("output")) write_surface(surface, output, context.run.part("write", k_verb_end, 1.0));
   context.console.end_progress();
-  return k_exit_success;
 }
 
 void log_outputs(const SurfaceValue& surface, const CommandLine& line, const CommandContext& context) {
   for (const std::string& output : line.all("output")) context.run.info("wrote " + output + ": " + describe(surface));
 }
+
+/// Returns a part of the progress for a verb, which names its own steps.
+RunContext unnamed_part(const CommandContext& context, double from, double to) { return context.run.part({}, from, to); }
 
 /// Runs a verb on the surface of the command's file.
 int run_on_file(std::string_view verb, double read_end, const CommandLine& line, const CommandContext& context) {
@@ -72,8 +73,8 @@ int run_on_file(std::string_view verb, double read_end, const CommandLine& line,
   if (!line.patches_of("patch").empty()) request.fields["patches"] = patches_entry(line.patches_of("patch"));
   if (!line.all("source").empty()) request.fields["sources"] = sources_entry(line.all("source"));
   const auto cache = cache_of(line);
-  request.items = {execute_verb("read_surface", std::move(file), context, context.run.part("read", 0.0, read_end))};
-  const ScriptValue made = execute_verb(verb, std::move(request), context, context.run.part(verb, read_end, k_verb_end), cache.get());
+  request.items = {execute_verb("read_surface", std::move(file), context, unnamed_part(context, 0.0, read_end))};
+  const ScriptValue made = execute_verb(verb, std::move(request), context, unnamed_part(context, read_end, k_verb_end), cache.get());
   const SurfaceValue& surface = *std::get<SurfaceHandle>(made);
   write_made(surface, line, context);
   log_outputs(surface, line, context);
@@ -86,12 +87,9 @@ int run_on_parts(std::string_view verb, const OptionTable& options, const Comman
   add_options(request, options, line.options, context);
   require_surface_output(line.word("output"));
   for (const char* const report : {"changes", "report"})
-    if (const std::string file = line.word(report); !file.empty()) {
-      const io::AtomicFile probe(file);  // reports before the work starts why the file cannot be written
-      request.fields[report] = file;
-    }
+    if (const std::string file = line.word(report); !file.empty()) request.fields[report] = file;
   const auto cache = cache_of(line);
-  const ScriptValue made = execute_verb(verb, std::move(request), context, context.run.part(verb, 0.0, k_verb_end), cache.get());
+  const ScriptValue made = execute_verb(verb, std::move(request), context, unnamed_part(context, 0.0, k_verb_end), cache.get());
   const SurfaceValue& surface = *std::get<SurfaceHandle>(made);
   write_made(surface, line, context);
   if (verb == "repair")

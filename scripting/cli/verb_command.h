@@ -28,7 +28,7 @@ ScriptValue patches_entry(const PatchEntries& patches);
 /// \throws Error of source_of_text
 ScriptValue sources_entry(const std::vector<std::string>& texts);
 
-/// The commands whose work is one verb of surfaces: `sterna half`, `remesh` (of one file), `repair`, `wrap`, `union` (of several).
+/// The commands whose work is one verb: `sterna half`, `remesh`, `draw` (of one file), `repair`, `wrap`, `union` (of several).
 int half_command(const CommandLine& line, const CommandContext& context);
 int remesh_command(const CommandLine& line, const CommandContext& context);
 int repair_command(const CommandLine& line, const CommandContext& context);

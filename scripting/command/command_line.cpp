@@ -61,10 +61,12 @@ void add_schema_options(CLI::App& command, const OptionTable& table, OptionOverr
     std::string help = std::string(option.help) + "; " + option.default_text();
     if (const std::string range = option.range_text(); !range.empty()) help += "; " + range;
     // If the option is given twice, both values are kept, and set_options refuses them if they differ.
-    CLI::Option* added = add_repeated(command, "--" + kebab(name), help, type_name(option),
-                                      [&overrides, name](const std::string& text) { overrides.emplace_back(name, text.empty() ? "true" : text); });
+    const bool is_boolean = option.kind == OptionKind::boolean;
+    CLI::Option* added = add_repeated(command, "--" + kebab(name), help, type_name(option), [&overrides, name, is_boolean](const std::string& text) {
+      overrides.emplace_back(name, is_boolean && text.empty() ? "true" : text);
+    });
     added->group("Options of stage " + std::string(option.stage) + (note.empty() ? "" : ", " + note));
-    if (option.kind == OptionKind::boolean) added->expected(0, 1);
+    if (is_boolean) added->expected(0, 1);
   }
 }
 
@@ -99,6 +101,10 @@ void add_cache_options(CLI::App& command, const std::string& help, CommandLine& 
   limit->check(CLI::PositiveNumber)->type_name("BYTES");
 }
 
+/// An empty value is an error, because an argument with an empty value would have the effect of an argument that is not given. Scripts of shells pass empty
+/// values for variables that are not set.
+std::string refuse_empty(const std::string& text) { return text.empty() ? "the value is empty: give a value, or leave the argument out" : ""; }
+
 /// Adds an argument whose values are words of the line.
 CLI::Option* add_words(CLI::App& command, const CommandArgument& argument, CommandLine& line) {
   Texts& words = line.words[key_of_argument(argument.name)];
@@ -106,6 +112,7 @@ CLI::Option* add_words(CLI::App& command, const CommandArgument& argument, Comma
   const auto take = [&words](const std::string& text) { words = {text}; };
   if (argument.takes == CommandArgument::Takes::several) {
     CLI::Option* option = command.add_option_function<Texts>(argument.name, take_all, argument.help);
+    option->check(refuse_empty);
     return argument.name.starts_with("-") ? option->allow_extra_args(false)->take_all() : option;
   }
   if (argument.takes == CommandArgument::Takes::whole)
@@ -113,7 +120,7 @@ CLI::Option* add_words(CLI::App& command, const CommandArgument& argument, Comma
         .add_option_function<int>(
             argument.name, [take](int number) { take(std::to_string(number)); }, argument.help)
         ->check(argument.most > 0 ? CLI::Validator(CLI::Range(1, argument.most)) : CLI::Validator(CLI::PositiveNumber));
-  return command.add_option_function<std::string>(argument.name, take, argument.help);
+  return command.add_option_function<std::string>(argument.name, take, argument.help)->check(refuse_empty);
 }
 
 void add_argument(CLI::App& command, const CommandArgument& argument, CommandLine& line) {

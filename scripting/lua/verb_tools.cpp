@@ -1,5 +1,6 @@
 #include "scripting/lua/verb_tools.h"
 
+#include "io/output/atomic_file.h"
 #include "scripting/lua/script_check.h"
 #include "scripting/lua/script_hooks.h"
 
@@ -52,6 +53,11 @@ std::filesystem::path output_entry(TableReader& reader, const ScriptCall& call, 
   if (const auto* file = std::get_if<std::string>(value)) return output_path(call, *file);
   reader.add_problem(name + ": expected " + std::string(expected) + ", not " + std::string(type_text(*value)));
   return {};
+}
+
+void require_writable(std::initializer_list<std::filesystem::path> files) {
+  for (const std::filesystem::path& file : files)
+    if (!file.empty()) const io::AtomicFile probe(file);
 }
 
 std::vector<InputPath> file_names(const ScriptCall& call, TableReader& reader) {

@@ -2,6 +2,7 @@
 #pragma once
 
 #include <filesystem>
+#include <initializer_list>
 #include <memory>
 #include <span>
 #include <string>
@@ -38,6 +39,8 @@ std::filesystem::path output_path(const ScriptCall& call, const std::string& nam
 /// Returns the path of the output file that an entry of the table names; empty if there is no such entry. Notes problems. \param expected "the name of a .vtu
 /// file"
 std::filesystem::path output_entry(TableReader& reader, const ScriptCall& call, const std::string& name, std::string_view expected);
+/// Checks that files can be written, before long work. Empty paths are left out. \throws Error(write_failed)
+void require_writable(std::initializer_list<std::filesystem::path> files);
 /// Returns the unnamed entries of a table as names of input files; notes problems.
 std::vector<InputPath> file_names(const ScriptCall& call, TableReader& reader);
 /// Returns the names after the object in mesh:write("a.su2", "b.vtu") or mesh:write{...}; a table may also contain the options of the schema.

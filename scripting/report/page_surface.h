@@ -34,7 +34,7 @@ PageTriangles page_triangles(const TriMesh& mesh);
 Json page_field_json(std::string_view name, std::string_view title, std::string_view unit, bool is_log, bool is_low_bad, const GateLimits& limits,
                      const std::vector<float>& values, PageArrays& arrays);
 
-/// Creates the common parts of all pages. The arguments must outlive this object; all returned strings are JSON.
+/// Creates the common parts of all pages. The arguments must outlive this object.
 class PageMaker {
  public:
   /// \throws Error(overflow) for more than 65 536 patches

@@ -1,5 +1,5 @@
-// Described values (geom/base/schema.h) as JSON objects. The headers of geom are free of the JSON library, so that its descriptions give text; it is parsed
-// here only.
+// Described values (geom/base/schema.h) as JSON objects. The folder geom does not use the JSON library: its functions return JSON text, which these functions
+// parse.
 #pragma once
 
 #include <nlohmann/json.hpp>
@@ -13,6 +13,9 @@ using Json = nlohmann::ordered_json;
 
 /// Returns the object of options_to_json().
 inline Json options_json(const OptionTable& table) { return Json::parse(options_to_json(table)); }
+
+/// Returns the object of value_to_json().
+inline Json value_json(const OptionTable& table) { return Json::parse(value_to_json(table)); }
 
 /// Returns the list of values_to_json().
 template <class T>

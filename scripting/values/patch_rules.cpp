@@ -139,7 +139,7 @@ Json rules_json(const std::vector<Rule>& rules) {
     OptionTable set = surface_and_layer_options(rule);
     std::erase_if(set, is_default);
     Json entry = {{"names", rule.names}};
-    entry.update(Json::parse(value_to_json(set)));
+    entry.update(value_json(set));
     list.push_back(std::move(entry));
   }
   return list;

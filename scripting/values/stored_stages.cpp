@@ -203,7 +203,11 @@ class StageJson {
     if (json_.contains(Json::json_pointer("/options/surface_mesh"))) {
       SurfaceRecipe recipe;
       read_options(sterna::options_of(recipe.options));
-      read_recipe(json_, recipe);
+      try {
+        read_recipe(json_, recipe);
+      } catch (const Error& error) {
+        refuse(file_, "the manifest has no valid request of surface_mesh: " + error.info().problem);
+      }
       history.push_back({.options = std::move(recipe)});
     }
     try {

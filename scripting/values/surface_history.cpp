@@ -42,8 +42,12 @@ OptionTable history_options(SurfaceHistory& history) {
   return table;
 }
 
-void add_recipe(Json& json, const SurfaceRecipe& recipe) {
+void add_rules(Json& json, const SurfaceRecipe& recipe) {
   if (!recipe.patches.empty()) json["surface_patches"] = rules_json(recipe.patches);
+}
+
+void add_recipe(Json& json, const SurfaceRecipe& recipe) {
+  add_rules(json, recipe);
   if (recipe.sources.empty() && !recipe.has_function) return;
   json["surface_sources"] = values_json(recipe.sources);
   if (recipe.has_function) json["surface_sources"].push_back(function_entry());

@@ -52,6 +52,8 @@ void inherit(SurfaceHistory& history, const SurfaceHistory& from, bool keeps_rec
 /// Returns the options of the last union, repair, wrap, remesh and surface_mesh. `history` must outlive the table.
 OptionTable history_options(SurfaceHistory& history);
 
+/// Adds the entry "surface_patches" of the recipe, if there are rules.
+void add_rules(Json& json, const SurfaceRecipe& recipe);
 /// Adds the entries "surface_patches" and "surface_sources" of the recipe, as far as it has them. The second function reads them.
 /// \throws Error(file_malformed, bad_argument)
 void add_recipe(Json& json, const SurfaceRecipe& recipe);

@@ -12,7 +12,6 @@
 #include "io/file/input_hash.h"
 #include "io/output/atomic_file.h"
 #include "scripting/values/manifest.h"
-#include "scripting/values/model_surface.h"
 #include "scripting/values/patch_rules.h"
 
 namespace sterna::scripting {
@@ -100,7 +99,7 @@ SurfaceHistory history_of(const Json& json, const InputPath& file) {
   try {
     return read_changes(json);
   } catch (const Json::exception&) {
-    refuse_manifest(file, "an entry of its changes is not a string");
+    refuse_manifest(file, "its changes are not a list of strings");
   }
 }
 
@@ -117,7 +116,7 @@ std::string surface_manifest_json(const SurfaceValue& surface, const std::filesy
     surfmesh::SurfaceMeshOptions options = recipe ? recipe->options : surfmesh::SurfaceMeshOptions{};
     json["options"] = options_json(sterna::options_of(options));
   }
-  if (recipe && !recipe->patches.empty()) json["surface_patches"] = rules_json(recipe->patches);
+  if (recipe) add_rules(json, *recipe);
   json["patches"] = Json::array();
   Column<PatchId, std::int64_t> n_triangles(surface.mesh.patches.size(), 0);
   for (const PatchId patch : surface.mesh.triangle_patch) ++n_triangles[patch];

@@ -20,8 +20,7 @@ std::string repair_help() {
   surfmesh::RepairOptions options;
   return options_help(repair_options(stitching, options)) +
          "Writes files: changes = \"changes.vtu\" (the changed and removed facets), report = \"changes.json\" (every change with kind, location, size and "
-         "facets, and "
-         "the distances)\n";
+         "facets, and the distances)\n";
 }
 
 ScriptValue repair_parts(const ScriptCall& call) {
@@ -36,8 +35,9 @@ ScriptValue repair_parts(const ScriptCall& call) {
   reader.read_options(schema);
   apply_overrides(call, schema);
   reader.finish();
+  require_writable({changes, report});
   const auto write_report = [&](const surfmesh::RepairReport& made) {
-    if (!changes.empty() && !made.changes.empty()) io::write_trouble_vtu(changed_facets(made), changes);
+    if (!changes.empty()) io::write_trouble_vtu(changed_facets(made), changes);
     if (!report.empty()) io::write_whole(report, repair_json(made));
   };
   const bool is_reported = !changes.empty() || !report.empty();

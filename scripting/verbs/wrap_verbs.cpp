@@ -17,8 +17,7 @@ std::string wrap_help() {
   surfmesh::WrapOptions options;
   return options_help(sterna::options_of(options)) +
          "Writes files: changes = \"changes.vtu\" (the triangles that close openings, and those at leaks), report = \"changes.json\" (every closure and leak "
-         "with kind, "
-         "location and size, and the distances)\n";
+         "with kind, location and size, and the distances)\n";
 }
 
 ScriptValue wrap_parts(const ScriptCall& call) {
@@ -32,8 +31,9 @@ ScriptValue wrap_parts(const ScriptCall& call) {
   reader.read_options(schema);
   apply_overrides(call, schema);
   reader.finish();
+  require_writable({changes, report});
   const auto write_report = [&](const surfmesh::WrapReport& made) {
-    if (!changes.empty() && !made.drawing.triangles.empty()) io::write_trouble_vtu(closed_facets(made), changes);
+    if (!changes.empty()) io::write_trouble_vtu(closed_facets(made), changes);
     if (!report.empty()) io::write_whole(report, wrap_json(made));
   };
   const bool is_reported = !changes.empty() || !report.empty();

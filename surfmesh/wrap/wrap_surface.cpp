@@ -128,7 +128,8 @@ struct GapTrial {
   double leaking = 0.0;  ///< result of leaking_share; 0 if only one gap may be tried
 };
 
-/// Data shared by the steps of a wrap. begin_wrap() makes it. Every step may report; other members change only in steps whose comments say so.
+/// Data shared by the steps of a wrap. begin_wrap() makes it. Every step may report, and
+/// wrapped() sets the ball of `soup`; other members change only in steps whose comments say so.
 struct WrapWork {
   const WrapOptions& options;
   const RunContext& context;
@@ -350,6 +351,7 @@ GapTrial try_gap(double gap, bool is_measured, WrapWork& work) {
 
 /// Returns the trials, ascending by their gaps. A wrap costs four times as much as the wrap for the next wider gap. If there are openings wider than the first
 /// gap, gaps are therefore tried from the widest one down until one leaks. Otherwise they are tried from the first one upwards while they leak.
+/// Sets work.sizes.gap, and orients the parts of the input by the last trial.
 std::vector<GapTrial> make_trials(WrapWork& work) {
   const bool is_measured = work.gaps.size() > 1;
   std::vector<GapTrial> trials;

@@ -46,6 +46,13 @@ TEST_F(ProgramArguments, WrongUseIsStatusTwo) {
   EXPECT_EQ(sterna({}).status, k_exit_usage);
   EXPECT_EQ(sterna({"mash"}).status, k_exit_usage);
   EXPECT_EQ(sterna({"mesh", "box.stl"}).status, k_exit_usage);
+  for (const char* const option : {"--fill-crevices", "--disc", "--stats"}) {
+    const ProcessResult empty = sterna({"mesh", "box.stl", "-o", "m.su2", "--first-height", "1e-2", option, ""});
+    EXPECT_EQ(empty.status, k_exit_usage) << option;
+    EXPECT_NE(empty.errors.find("the value is empty"), std::string::npos) << empty.errors;
+  }
+  EXPECT_EQ(sterna({"check", "m.su2", "--for", ""}).status, k_exit_usage);
+  EXPECT_NE(sterna({"draw", "box.stl", "-o", "a.png", "--width", ""}).errors.find("\"\" is not"), std::string::npos);
   EXPECT_EQ(sterna({"mesh", "box.stl", "-o", "m.su2", "--set", "nonsense"}).status, k_exit_usage);
   EXPECT_EQ(sterna({"run", "box.lua", "--threads", "-1"}).status, k_exit_usage);
   EXPECT_EQ(files(), std::vector<std::string>{"box.stl"});

@@ -1,8 +1,10 @@
 // Each command that has verbs does what a script with these verbs does: the same files, byte for byte, and the same printed results.
+#include <algorithm>
 #include <map>
 #include <sstream>
 
 #include "scripting/cli/command_table.h"
+#include "scripting/interpreter/script_help.h"
 #include "scripting/terminal/exit_status.h"
 #include "tests/scripting/script_fixture.h"
 #include "tests/support/process.h"
@@ -115,6 +117,7 @@ TEST_F(CommandRows, DoWhatTheirScriptsDo) {
       const auto same = files_of_script.find(file);
       EXPECT_TRUE(same != files_of_script.end() && same->second == bytes) << file;
     }
+    EXPECT_TRUE(both.only.empty() || files.contains(both.only)) << both.only << " is not written";
     EXPECT_EQ(files.size(), files_of_script.size());
     EXPECT_TRUE(!both.prints || printed == printed_by_script) << printed << printed_by_script;
   }
@@ -125,6 +128,11 @@ TEST(CommandTable, RowsWithVerbsHaveAnEquivalentScript) {
   for (const CommandRow& row : command_rows()) {
     EXPECT_EQ(row.verbs.empty(), !equivalent_scripts().contains(std::string(row.name))) << row.name;
     n_verbs += row.verbs.empty() ? 0 : 1;
+    for (const std::string_view verb : row.verbs) {
+      EXPECT_NE(find_verb(verb), nullptr) << verb;
+      const std::string_view call = verb.substr(std::min(verb.find(':'), verb.size()) % verb.size());  // of a method, the part behind the object
+      EXPECT_NE(equivalent_scripts().at(std::string(row.name)).script.find(call), std::string::npos) << row.name << " without " << verb;
+    }
   }
   EXPECT_EQ(n_verbs, equivalent_scripts().size());
 }

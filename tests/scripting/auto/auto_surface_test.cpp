@@ -75,6 +75,10 @@ TEST_F(AutoSurfaceTest, RepairWritesWhatItChanged) {
   const nlohmann::json report = nlohmann::json::parse(text_of("changes.json"));
   ASSERT_EQ(report.at("changes").size(), 1u);
   EXPECT_EQ(report.at("changes").at(0).at("kind"), "filled");
+  // A file of an earlier run does not remain if nothing is changed.
+  const std::string before = text_of("changes.vtu");
+  ASSERT_EQ(sterna({"repair", "mended.stl", "-o", "again.stl", "--changes", "changes.vtu"}).status, 0);
+  EXPECT_THAT(text_of("changes.vtu"), AllOf(HasSubstr("UnstructuredGrid"), Not(before)));
   EXPECT_THAT(run("print(read_surface " + out("mended.stl") + ")"), HasSubstr("closed"));
 }
 
